@@ -1,0 +1,24 @@
+# Language level, warnings and the flags that determinism needs.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+
+find_program(RECKON_CCACHE ccache)
+if(RECKON_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${RECKON_CCACHE}")
+endif()
+
+option(RECKON_SANITIZE "Address and undefined-behaviour sanitizers" OFF)
+
+# -ffp-contract=off: a fused multiply-add in the control law would change the run's bytes.
+add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror
+                    -ffp-contract=off)
+if(RECKON_SANITIZE)
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=address,undefined)
+endif()

@@ -1,0 +1,38 @@
+# Layers. Headers are included as "reckon/<layer>/<file>.h"; each layer has an include root of its
+# own, a folder that holds nothing but a link to the layer, so that a layer sees only what its
+# target links to.
+
+function(_reckon_link from to)
+  get_filename_component(parent "${to}" DIRECTORY)
+  file(MAKE_DIRECTORY "${parent}")
+  file(CREATE_LINK "${from}" "${to}" SYMBOLIC)
+endfunction()
+
+# reckon_layer(<name> SEES <targets whose headers it may include, and so may its users>
+#              USES <libraries that only its sources see>)
+function(reckon_layer name)
+  cmake_parse_arguments(ARG "" "" "SEES;USES" ${ARGN})
+  set(root "${PROJECT_BINARY_DIR}/include/${name}")
+  _reckon_link("${PROJECT_SOURCE_DIR}/${name}" "${root}/reckon/${name}")
+  file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${name}/*.cpp")
+  list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
+  if(NOT sources)
+    set(sources "${PROJECT_SOURCE_DIR}/cmake/empty.cpp")
+  endif()
+  add_library(reckon_${name} STATIC ${sources})
+  target_include_directories(reckon_${name} PUBLIC "${root}")
+  target_link_libraries(reckon_${name} PUBLIC ${ARG_SEES} PRIVATE ${ARG_USES})
+endfunction()
+
+# reckon_headers(<name> FROM <layer> FILES <headers> SEES <targets>): a few headers of a layer, for a
+# layer that may see those types and no more.
+function(reckon_headers name)
+  cmake_parse_arguments(ARG "" "FROM" "FILES;SEES" ${ARGN})
+  set(root "${PROJECT_BINARY_DIR}/include/${name}")
+  foreach(file IN LISTS ARG_FILES)
+    _reckon_link("${PROJECT_SOURCE_DIR}/${ARG_FROM}/${file}" "${root}/reckon/${ARG_FROM}/${file}")
+  endforeach()
+  add_library(reckon_${name} INTERFACE)
+  target_include_directories(reckon_${name} INTERFACE "${root}")
+  target_link_libraries(reckon_${name} INTERFACE ${ARG_SEES})
+endfunction()

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include <Eigen/Core>
+
+#include "reckon/estimator/estimate.h"
+#include "reckon/models/pose.h"
+#include "reckon/models/suite.h"
+#include "reckon/models/time.h"
+
+namespace reckon::estimator {
+
+/// The noise that a filter believes in: a flat, named vector (see `NoiseFields`).
+struct Noise {
+  double gyro_noise_density_rad_per_s_sqrt_hz = 0.0;
+  double accel_noise_density_m_per_s2_sqrt_hz = 0.0;
+  double gyro_bias_walk_rad_per_s2_sqrt_hz = 0.0;
+  double accel_bias_walk_m_per_s3_sqrt_hz = 0.0;
+  double wheel_forward_m_per_s = 0.0;   ///< white, per encoder sample; so are the next two
+  double wheel_lateral_m_per_s = 0.0;   ///< of the nonholonomic row v_y = 0
+  double wheel_vertical_m_per_s = 0.0;  ///< of the nonholonomic row v_z = 0
+  double body_velocity_scale = 1.0;     ///< scales the standard deviation that the sensor delivers
+};
+
+/// One entry of the flat vector: its stable name (with the unit) and where it lives.
+struct NoiseField {
+  std::string_view name;
+  double Noise::* member;
+};
+
+/// All entries of `Noise`, in a fixed order.
+std::span<const NoiseField> NoiseFields();
+
+/// What happens to a correction whose NIS lies beyond the χ² quantile of `probability`.
+enum class GateAction : std::uint8_t { kOff, kWarn, kReject, kInflate };
+
+struct Gate {
+  GateAction action = GateAction::kReject;
+  double probability = 0.9999;
+};
+
+/// Standard deviations of the initial error in the filter's own error coordinates.
+struct PriorSigma {
+  double roll_pitch_rad = 0.02;
+  double yaw_rad = 0.01;
+  double velocity_m_s = 0.05;
+  double position_m = 0.01;
+  double gyro_bias_rad_s = 1e-3;
+  double accel_bias_m_s2 = 2e-2;
+};
+
+/// Where a filter starts: the body's state and the covariance of its right-invariant error. A filter
+/// moves both to its IMU and to its own error form itself, so that all filters start alike.
+struct Prior {
+  models::TimeNs t_ns = 0;
+  models::Pose X_WB;
+  Eigen::Vector3d v_WB = Eigen::Vector3d::Zero();
+  Eigen::Vector3d w_WB_B = Eigen::Vector3d::Zero();  ///< believed turn rate: carries v over the lever arm
+  Eigen::Vector3d gyro_bias_rad_s = Eigen::Vector3d::Zero();
+  Eigen::Vector3d accel_bias_m_s2 = Eigen::Vector3d::Zero();
+  ErrorCovariance covariance = ErrorCovariance::Zero();
+};
+
+/// How a filter finds its first state.
+enum class InitialisationKind : std::uint8_t {
+  kPrior,   ///< from the prior alone
+  kStatic,  ///< roll, pitch and gyroscope bias from a resting IMU; yaw and position from the prior
+};
+
+struct Initialisation {
+  InitialisationKind kind = InitialisationKind::kPrior;
+  double static_duration_s = 1.0;  ///< of rest that is averaged
+};
+
+/// Everything that a filter is told before its first measurement: beliefs only.
+struct Setup {
+  models::Suite suite;
+  Noise noise;
+  Gate gate;
+  Initialisation initialisation;
+  PriorSigma prior_sigma;
+  double gravity_m_s2 = 9.81;
+  bool estimate_gyro_bias = true;   ///< false: the state is kept at the prior's with zero covariance
+  bool estimate_accel_bias = true;  ///< likewise
+};
+
+}  // namespace reckon::estimator

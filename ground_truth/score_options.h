@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+namespace reckon::ground_truth {
+
+/// How the estimated trajectory is moved onto the true one before the absolute error is taken.
+enum class Alignment {
+  kNone,
+  kFirstPose,    ///< evo's --align_origin: the first pose of both coincides
+  kYawPosition,  ///< least squares over yaw and position: what a filter without a compass can't know
+  kSe3,          ///< evo's --align: Umeyama without scale, on positions
+  kSim3,         ///< evo's --align --correct_scale
+};
+
+struct ScoreOptions {
+  Alignment align = Alignment::kFirstPose;
+  std::vector<double> rpe_m{1.0, 10.0};   ///< segment lengths of the relative error, metres of true path
+  std::vector<double> rpe_s{10.0};        ///< windows of the relative error, seconds
+  double start_s = 0.0;                   ///< nothing before this is scored
+};
+
+}  // namespace reckon::ground_truth

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reckon/models/measurement.h"
+#include "reckon/models/pose.h"
+
+namespace reckon::models {
+
+/// What a sensor sends: the alternatives of `Sample`, by name and in the same order.
+enum class SensorKind : std::uint8_t { kImu, kEncoders, kBodyVelocity };
+
+/// A sensor as the estimator believes it to be: what it is and where it sits on the nominal robot.
+struct MountedSensor {
+  std::string name;
+  SensorKind kind = SensorKind::kImu;
+  Pose X_BS;              ///< the sensor's frame in the body: rotation and lever arm, never assumed zero
+  TimeNs period_ns = 0;   ///< nominal time between two samples
+};
+
+/// The believed drive of a skid-steered or differential robot.
+///
+/// The forward speed is `rolling_radius_m` times the mean wheel rate. It and the nonholonomic
+/// conditions v_y = v_z = 0 hold in the frame `X_BS`, whose origin is the centre of rotation that a
+/// calibration finds, not necessarily the body's.
+struct WheelDrive {
+  std::string encoders;                       ///< the sensor that reports the wheels
+  std::vector<int> left, right;               ///< entries of its sample, by side
+  double rolling_radius_m = 0.0;
+  double effective_track_m = 0.0;             ///< (v_right − v_left) / yaw rate, slip included
+  Pose X_BS;
+};
+
+/// The nominal robot's sensors: a measurement's `sensor` is an index into `sensors`.
+struct Suite {
+  std::vector<MountedSensor> sensors;
+  std::optional<WheelDrive> wheels;
+
+  /// The id of the sensor called `name`; nothing if there is none.
+  std::optional<SensorId> Find(const std::string& name) const;
+};
+
+}  // namespace reckon::models

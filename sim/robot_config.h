@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace reckon::sim {
+
+/// A skid-steer drive as the simulator builds it: what the URDF can't say. Names are URDF joints.
+struct SkidSteerConfig {
+  std::vector<std::string> left_joints, right_joints;  ///< front to rear
+  double wheel_radius_m = 0.1651;
+  double wheel_armature_kg_m2 = 0.06;
+  double wheel_damping_n_m_s = 0.1;
+  double torque_limit_n_m = 40.0;
+  double speed_kp = 25.0;                ///< PI speed loop of one motor a side, N m per rad/s
+  double speed_ki = 150.0;
+  double max_acceleration_m_s2 = 1.0;    ///< ramps of the command
+  double max_yaw_acceleration_rad_s2 = 2.0;
+  double command_track_m = 0.555;        ///< geometric track that turns (v, ω) into wheel speeds
+  // The tyre, `vehicles.md` A.
+  double bristle_stiffness_n_m = 25e3;
+  double bristle_damping_n_s_m = 60.0;
+  double relaxation_length_m = 0.05;
+  double normal_stiffness_n_m = 32e3;
+  double normal_damping_n_s_m = 500.0;
+};
+
+/// The robot that is simulated: its URDF and its drive.
+struct RobotConfig {
+  std::string name;        ///< a folder in models/
+  std::string urdf_path;
+  std::string base_link = "base_link";
+  SkidSteerConfig skid_steer;
+};
+
+}  // namespace reckon::sim
