@@ -4,12 +4,8 @@
 #include <span>
 #include <string_view>
 
-#include <Eigen/Core>
-
-#include "reckon/estimator/estimate.h"
-#include "reckon/models/pose.h"
+#include "reckon/estimator/prior.h"
 #include "reckon/models/suite.h"
-#include "reckon/models/time.h"
 
 namespace reckon::estimator {
 
@@ -50,18 +46,6 @@ struct PriorSigma {
   double position_m = 0.01;
   double gyro_bias_rad_s = 1e-3;
   double accel_bias_m_s2 = 2e-2;
-};
-
-/// Where a filter starts: the body's state and the covariance of its right-invariant error. A filter
-/// moves both to its IMU and to its own error form itself, so that all filters start alike.
-struct Prior {
-  models::TimeNs t_ns = 0;
-  models::Pose X_WB;
-  Eigen::Vector3d v_WB = Eigen::Vector3d::Zero();
-  Eigen::Vector3d w_WB_B = Eigen::Vector3d::Zero();  ///< believed turn rate: carries v over the lever arm
-  Eigen::Vector3d gyro_bias_rad_s = Eigen::Vector3d::Zero();
-  Eigen::Vector3d accel_bias_m_s2 = Eigen::Vector3d::Zero();
-  ErrorCovariance covariance = ErrorCovariance::Zero();
 };
 
 /// How a filter finds its first state.

@@ -11,6 +11,7 @@ enum class Alignment {
   kYawPosition,  ///< least squares over yaw and position: what a filter without a compass can't know
   kSe3,          ///< evo's --align: Umeyama without scale, on positions
   kSim3,         ///< evo's --align --correct_scale
+  kFirstYawPosition,  ///< yaw and position of the first pose: an initial tilt error stays an error
 };
 
 struct ScoreOptions {

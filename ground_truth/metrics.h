@@ -1,0 +1,45 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reckon/ground_truth/score_options.h"
+#include "reckon/ground_truth/track.h"
+
+namespace reckon::ground_truth {
+
+/// One score: a stable name that holds its unit, and its value.
+struct Metric {
+  std::string name;
+  double value = 0.0;    ///< NaN if it has none
+  bool applies = true;   ///< false: this estimator or run has no such score (no covariance, no path)
+};
+
+/// The scores of one estimator in one run, in the order of the catalogue.
+class Metrics {
+ public:
+  void Add(std::string name, double value, bool applies = true);
+
+  const std::vector<Metric>& list() const { return list_; }
+
+  /// The value of the metric called `name`; nothing if it is missing or not finite.
+  std::optional<double> Find(std::string_view name) const;
+
+  /// Whether every metric that applies is finite.
+  bool valid() const;
+
+ private:
+  std::vector<Metric> list_;
+};
+
+/// All scores of `track`. `sensors` names the sensors by id.
+Metrics Score(const Track& track, const std::vector<std::string>& sensors,
+              const ScoreOptions& options);
+
+/// {"valid": …, "<name>": value or null, …}; the same metrics give the same bytes.
+nlohmann::ordered_json ToJson(const Metrics& metrics);
+
+}  // namespace reckon::ground_truth
