@@ -13,12 +13,14 @@ struct SkidSteerConfig {
   double wheel_radius_m = 0.1651;
   double wheel_armature_kg_m2 = 0.06;
   double wheel_damping_n_m_s = 0.1;
-  double torque_limit_n_m = 40.0;
-  double speed_kp = 25.0;                ///< PI speed loop of one motor a side, N m per rad/s
+  double torque_limit_n_m = 40.0;  ///< of the motor of a side, at each of its wheels
+  double speed_kp = 25.0;          ///< PI loop on a side's mean speed, N m a wheel per rad/s
   double speed_ki = 150.0;
-  double max_acceleration_m_s2 = 1.0;    ///< ramps of the command
+  double belt_stiffness_n_m_rad = 2500.0;  ///< a belt makes the wheels of a side turn together:
+  double belt_damping_n_m_s = 8.0;         ///< torque on a wheel that leaves its side's mean
+  double max_acceleration_m_s2 = 1.0;      ///< ramps of the command
   double max_yaw_acceleration_rad_s2 = 2.0;
-  double command_track_m = 0.555;        ///< geometric track that turns (v, ω) into wheel speeds
+  double command_track_m = 0.555;  ///< geometric track that turns (v, ω) into wheel speeds
   // The tyre, `vehicles.md` A.
   double bristle_stiffness_n_m = 25e3;
   double bristle_damping_n_s_m = 60.0;
@@ -29,7 +31,7 @@ struct SkidSteerConfig {
 
 /// The robot that is simulated: its URDF and its drive.
 struct RobotConfig {
-  std::string name;        ///< a folder in models/
+  std::string name;  ///< a folder in models/
   std::string urdf_path;
   std::string base_link = "base_link";
   SkidSteerConfig skid_steer;
