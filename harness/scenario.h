@@ -9,6 +9,7 @@
 
 #include "reckon/estimator/setup.h"
 #include "reckon/ground_truth/score_options.h"
+#include "reckon/sim/robot_config.h"
 #include "reckon/sim/sensor_config.h"
 #include "reckon/sim/world_config.h"
 
@@ -25,6 +26,7 @@ enum class NoiseSource { kNominal, kMatched, kGiven };
 /// One estimator under test: beliefs, not facts.
 struct EstimatorConfig {
   std::string type = "inekf";           ///< a name of the registry, or `process`
+  estimator::ErrorForm error = estimator::ErrorForm::kRightInvariant;   ///< inekf
   std::vector<std::string> command;     ///< process: the program and its arguments
   double timeout_s = 10.0;              ///< process: the longest wait for an answer
   NoiseSource noise_source = NoiseSource::kNominal;
@@ -34,7 +36,6 @@ struct EstimatorConfig {
   bool estimate_gyro_bias = true;
   bool estimate_accel_bias = true;
   std::vector<std::string> sensors;     ///< those that it is given; empty: all
-  double stamp_shift_s = 0.0;           ///< added to every non-IMU stamp that it sees (a deliberate defect)
   /// Believed mounting that differs from the nominal one, by sensor: a deliberate defect.
   std::map<std::string, std::array<double, 6>> mounting_error;   ///< [x y z m, rotation vector deg]
 };
@@ -78,6 +79,20 @@ struct ExpectConfig {
   std::optional<int> exit_code;   ///< for scenarios whose point is to fail (a run that must end with 3)
 };
 
+/// The wheels that the estimators believe in.
+struct NominalWheels {
+  std::string encoders;              ///< the sensor that reports them; empty: no wheels
+  double rolling_radius_m = 0.0;
+  double effective_track_m = 0.0;    ///< slip included
+  std::array<double, 3> origin_m{};  ///< in B: where forward speed and nonholonomic rows hold
+};
+
+/// What the estimators believe of the robot, beside its URDF.
+struct NominalConfig {
+  NominalWheels wheels;
+  estimator::Noise noise;   ///< of estimators with `noise: nominal`
+};
+
 /// A scenario with every default filled in: a run is a pure function of it.
 struct Scenario {
   int schema = 1;
@@ -86,6 +101,8 @@ struct Scenario {
   double duration_s = 60.0;
   std::uint64_t seed = 1;
   sim::WorldConfig world;            ///< `world:`, `motion:` and `actual:`
+  sim::SkidSteerConfig drive;        ///< of the simulated robot
+  NominalConfig nominal;
   std::map<std::string, SensorConfig> sensors;
   std::vector<sim::FaultConfig> faults;
   InitialConfig initial;

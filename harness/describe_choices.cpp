@@ -1,0 +1,127 @@
+#include "reckon/harness/describe_choices.h"
+
+#include "reckon/estimator/registry.h"
+
+namespace reckon::harness {
+
+template <>
+std::span<const Choice<sim::TerrainKind>> Choices() {
+  using Kind = sim::TerrainKind;
+  static const std::vector<Choice<Kind>> kChoices{
+      {Kind::kFlat, "flat", "a plane"},
+      {Kind::kSlope, "slope", "an inclined plane"},
+      {Kind::kRough, "rough", "smooth random hills of a given RMS height, new ones for every seed"},
+      {Kind::kKerbs, "kerbs", "boxes across the path on a plane"}};
+  return kChoices;
+}
+
+template <>
+std::span<const Choice<sim::PathKind>> Choices() {
+  using Kind = sim::PathKind;
+  static const std::vector<Choice<Kind>> kChoices{
+      {Kind::kStand, "stand", "stands still"},
+      {Kind::kSquare, "square", "laps of a square, corners turned on the way"},
+      {Kind::kCircle, "circle", "laps of a circle"},
+      {Kind::kFigureEight, "figure_eight", "laps of two circles that touch"},
+      {Kind::kWaypoints, "waypoints", "through given points, stopping at the last"},
+      {Kind::kVelocityProfile, "velocity_profile", "given speeds and turn rates over time"}};
+  return kChoices;
+}
+
+template <>
+std::span<const Choice<sim::ImuMode>> Choices() {
+  using Mode = sim::ImuMode;
+  static const std::vector<Choice<Mode>> kChoices{
+      {Mode::kIncrement, "increment", "integrates over the sample's interval, as real units do"},
+      {Mode::kPoint, "point", "the rate and specific force at one instant, for comparison"}};
+  return kChoices;
+}
+
+template <>
+std::span<const Choice<sim::FaultKind>> Choices() {
+  using Kind = sim::FaultKind;
+  static const std::vector<Choice<Kind>> kChoices{
+      {Kind::kDropout, "dropout", "nothing is sent"},
+      {Kind::kStuck, "stuck", "the last good sample is sent again, freshly stamped"},
+      {Kind::kBiasStep, "bias_step", "an offset on every channel"},
+      {Kind::kScaleStep, "scale_step", "a factor on every channel"},
+      {Kind::kSaturation, "saturation", "every channel is clipped"},
+      {Kind::kExtraDelay, "extra_delay", "the message arrives later"},
+      {Kind::kTimeJitter, "time_jitter", "the time of validity is misreported at random"},
+      {Kind::kOutlierBurst, "outlier_burst", "three samples in ten get a large random error"},
+      {Kind::kNanBurst, "nan_burst", "every channel is not a number"}};
+  return kChoices;
+}
+
+template <>
+std::span<const Choice<models::SensorKind>> Choices() {
+  using Kind = models::SensorKind;
+  static const std::vector<Choice<Kind>> kChoices{
+      {Kind::kImu, "imu", "gyroscope and accelerometer"},
+      {Kind::kEncoders, "encoders", "rotary encoders of all wheels"},
+      {Kind::kBodyVelocity, "body_velocity", "an ideal velocity sensor with white noise"}};
+  return kChoices;
+}
+
+template <>
+std::span<const Choice<estimator::GateAction>> Choices() {
+  using Action = estimator::GateAction;
+  static const std::vector<Choice<Action>> kChoices{
+      {Action::kOff, "off", "no gate"},
+      {Action::kWarn, "warn", "applied all the same, and counted"},
+      {Action::kReject, "reject", "not applied"},
+      {Action::kInflate, "inflate", "applied with its noise scaled up to the gate's edge"}};
+  return kChoices;
+}
+
+template <>
+std::span<const Choice<estimator::InitialisationKind>> Choices() {
+  using Kind = estimator::InitialisationKind;
+  static const std::vector<Choice<Kind>> kChoices{
+      {Kind::kPrior, "prior", "from the prior alone"},
+      {Kind::kStatic, "static",
+       "tilt and gyroscope bias from a resting IMU, the rest from the prior"}};
+  return kChoices;
+}
+
+template <>
+std::span<const Choice<estimator::ErrorForm>> Choices() {
+  static const std::vector<Choice<estimator::ErrorForm>> kChoices{
+      {estimator::ErrorForm::kRightInvariant, "right", "right-invariant"}};
+  return kChoices;
+}
+
+template <>
+std::span<const Choice<ground_truth::Alignment>> Choices() {
+  using Align = ground_truth::Alignment;
+  static const std::vector<Choice<Align>> kChoices{
+      {Align::kNone, "none", "as it is"},
+      {Align::kFirstPose, "first_pose", "the first poses coincide"},
+      {Align::kYawPosition, "yaw_position", "least squares over yaw and position"},
+      {Align::kSe3, "se3", "least squares over rotation and position"},
+      {Align::kSim3, "sim3", "the same, and scale"}};
+  return kChoices;
+}
+
+template <>
+std::span<const Choice<NoiseSource>> Choices() {
+  static const std::vector<Choice<NoiseSource>> kChoices{
+      {NoiseSource::kNominal, "nominal", "what the robot's folder says"},
+      {NoiseSource::kMatched, "matched", "computed from `sensors:`, as far as that says it"}};
+  return kChoices;
+}
+
+const std::vector<Choice<std::string>>& EstimatorTypes() {
+  static const std::vector<Choice<std::string>> kTypes = [] {
+    std::vector<Choice<std::string>> types;
+    for (const auto& entry : estimator::Registry()) {
+      const std::string name(entry.name);
+      types.push_back({name, name, std::string(entry.description)});
+    }
+    types.push_back({"process", "process", "an external program on a pipe"});
+    return types;
+  }();
+  return kTypes;
+}
+
+}  // namespace reckon::harness

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "reckon/estimator/setup.h"
+#include "reckon/ground_truth/score_options.h"
+#include "reckon/harness/describe.h"
+#include "reckon/harness/scenario.h"
+#include "reckon/models/suite.h"
+#include "reckon/sim/sensor_config.h"
+#include "reckon/sim/world_config.h"
+
+namespace reckon::harness {
+
+// The words of the scenario's enumerations, one table each.
+template <>
+std::span<const Choice<sim::TerrainKind>> Choices();
+template <>
+std::span<const Choice<sim::PathKind>> Choices();
+template <>
+std::span<const Choice<sim::ImuMode>> Choices();
+template <>
+std::span<const Choice<sim::FaultKind>> Choices();
+template <>
+std::span<const Choice<models::SensorKind>> Choices();
+template <>
+std::span<const Choice<estimator::GateAction>> Choices();
+template <>
+std::span<const Choice<estimator::InitialisationKind>> Choices();
+template <>
+std::span<const Choice<estimator::ErrorForm>> Choices();
+template <>
+std::span<const Choice<ground_truth::Alignment>> Choices();
+template <>
+std::span<const Choice<NoiseSource>> Choices();
+
+/// The types of estimator: the registry's names and `process`.
+const std::vector<Choice<std::string>>& EstimatorTypes();
+
+/// The grades of an IMU.
+const std::vector<Choice<std::string>>& ImuGrades();
+
+}  // namespace reckon::harness

@@ -1,0 +1,85 @@
+#pragma once
+
+#include "reckon/harness/describe_choices.h"
+#include "reckon/harness/describe_traits.h"
+
+namespace reckon::harness {
+
+template <class Archive>
+void Describe(Archive& a, estimator::Noise& n) {
+  a.Field("gyro_noise_density_rad_per_s_sqrt_hz", n.gyro_noise_density_rad_per_s_sqrt_hz,
+          "Gyroscope, white", Between(0, 10));
+  a.Field("accel_noise_density_m_per_s2_sqrt_hz", n.accel_noise_density_m_per_s2_sqrt_hz,
+          "Accelerometer, white", Between(0, 100));
+  a.Field("gyro_bias_walk_rad_per_s2_sqrt_hz", n.gyro_bias_walk_rad_per_s2_sqrt_hz,
+          "Random walk of the gyroscope's bias", Between(0, 10));
+  a.Field("accel_bias_walk_m_per_s3_sqrt_hz", n.accel_bias_walk_m_per_s3_sqrt_hz,
+          "Random walk of the accelerometer's bias", Between(0, 100));
+  a.Field("wheel_forward_m_per_s", n.wheel_forward_m_per_s,
+          "Forward speed from the wheels, white, a sample", Between(0, 100));
+  a.Field("wheel_lateral_m_per_s", n.wheel_lateral_m_per_s,
+          "Of the condition that the robot does not slide sideways", Between(0, 100));
+  a.Field("wheel_vertical_m_per_s", n.wheel_vertical_m_per_s,
+          "Of the condition that the robot does not lift off", Between(0, 100));
+  a.Field("body_velocity_scale", n.body_velocity_scale,
+          "Factor on the sigma that a velocity sensor delivers", AboveUpTo(0, 1e3));
+}
+
+template <class Archive>
+void Describe(Archive& a, estimator::Gate& g) {
+  a.Field("action", g.action, "What happens to a correction beyond the gate");
+  a.Field("probability", g.probability, "Chi-square quantile of the gate",
+          AboveUpTo(0.5, 1 - 1e-12));
+}
+
+template <class Archive>
+void Describe(Archive& a, estimator::Initialisation& i) {
+  using Kind = estimator::InitialisationKind;
+  a.Kind("kind", i.kind, Choices<Kind>(), "How the first state is found");
+  if (i.kind == Kind::kStatic) {
+    a.Field("static_duration_s", i.static_duration_s, "Rest that is averaged", AboveUpTo(0, 3600));
+  }
+}
+
+template <class Archive>
+void Describe(Archive& a, estimator::PriorSigma& p) {
+  a.Field("roll_pitch_rad", p.roll_pitch_rad, "Roll and pitch", Between(0, 3.2));
+  a.Field("yaw_rad", p.yaw_rad, "Yaw", Between(0, 3.2));
+  a.Field("velocity_m_s", p.velocity_m_s, "Velocity, each axis", Between(0, 100));
+  a.Field("position_m", p.position_m, "Position, each axis", Between(0, 1e4));
+  a.Field("gyro_bias_rad_s", p.gyro_bias_rad_s, "Gyroscope bias, each axis", Between(0, 10));
+  a.Field("accel_bias_m_s2", p.accel_bias_m_s2, "Accelerometer bias, each axis", Between(0, 100));
+}
+
+template <class Archive>
+void Describe(Archive& a, InitialConfig& i) {
+  a.Field("sample_error", i.sample_error,
+          "Draw the initial error from the prior; false: start at the truth");
+  a.Field("sigma", i.sigma, "The prior, right-invariant standard deviations");
+}
+
+template <class Archive>
+void Describe(Archive& a, EstimatorConfig& e) {
+  a.Kind("type", e.type, std::span<const Choice<std::string>>(EstimatorTypes()),
+         "Which estimator: `reckon list estimators`");
+  const bool is_process = e.type == "process";
+  if (is_process) {
+    a.Field("command", e.command, "The program and its arguments", {}, Need::kSomewhere);
+    a.Field("timeout_s", e.timeout_s, "Longest wait for an answer", AboveUpTo(0, 3600));
+  }
+  if (e.type == "inekf") a.Field("error", e.error, "The error that the filter keeps");
+  a.WordOr("noise", e.noise_source, Choices<NoiseSource>(), NoiseSource::kGiven, e.noise,
+           "The noise believed; numbers that are not given are nominal");
+  if (!is_process) {
+    a.Field("gate", e.gate, "Test of every correction's normalised innovation squared");
+    a.Field("initialisation", e.initialisation, "How the first state is found");
+    a.Field("estimate_gyro_bias", e.estimate_gyro_bias, "false: keeps the prior's");
+    a.Field("estimate_accel_bias", e.estimate_accel_bias, "false: keeps the prior's");
+  }
+  a.Field("sensors", e.sensors, "The sensors that it is given; empty: all");
+  a.Field("mounting_error", e.mounting_error,
+          "Believed minus nominal mounting by sensor, [x, y, z, rotation vector] in m and degrees: "
+          "a deliberate defect");
+}
+
+}  // namespace reckon::harness

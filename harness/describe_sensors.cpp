@@ -1,0 +1,40 @@
+#include "reckon/harness/describe_sensors.h"
+
+#include "reckon/sim/imu_grades.h"
+
+namespace reckon::harness {
+
+void ApplyGrade(sim::ImuConfig& imu) {
+  if (const sim::ImuGrade* grade = sim::FindImuGrade(imu.grade)) {
+    imu.gyro = grade->gyro;
+    imu.accel = grade->accel;
+  }
+}
+
+const std::vector<Choice<std::string>>& ImuGrades() {
+  static const std::vector<Choice<std::string>> kGrades = [] {
+    std::vector<Choice<std::string>> grades;
+    for (const sim::ImuGrade& grade : sim::ImuGrades()) {
+      for (const std::string_view name : {grade.name, grade.alias}) {
+        if (name.empty()) continue;
+        grades.push_back({std::string(name), std::string(name), std::string(grade.source)});
+      }
+    }
+    return grades;
+  }();
+  return kGrades;
+}
+
+sim::SensorErrors DefaultErrors(models::SensorKind kind) {
+  switch (kind) {
+    case models::SensorKind::kImu:
+      return sim::ImuConfig{};
+    case models::SensorKind::kEncoders:
+      return sim::EncoderConfig{};
+    case models::SensorKind::kBodyVelocity:
+      return sim::BodyVelocityConfig{};
+  }
+  return sim::ImuConfig{};
+}
+
+}  // namespace reckon::harness

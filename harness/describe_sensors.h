@@ -1,0 +1,145 @@
+#pragma once
+
+#include <variant>
+
+#include "reckon/harness/describe_choices.h"
+#include "reckon/harness/describe_traits.h"
+
+namespace reckon::harness {
+
+template <class Archive>
+void DescribeTiming(Archive& a, sim::Timing& t) {
+  a.Field("rate_hz", t.rate_hz, "Samples a second, an integer fraction of the physics rate",
+          AboveUpTo(0, 1e5));
+  a.Field("latency_s", t.latency_s, "From a sample's validity to its arrival", Between(0, 60));
+  a.Field("stamp_error_s", t.stamp_error_s,
+          "The sensor's clock is off: a sample claims to be valid this much after it was",
+          Between(-60, 60));
+}
+
+template <class Archive>
+void DescribeGyroErrors(Archive& a, sim::TriadErrors& e) {
+  a.Field("noise_density_rad_per_s_sqrt_hz", e.noise_density, "White noise", Between(0, 10));
+  a.Field("bias_walk_rad_per_s2_sqrt_hz", e.bias_walk, "Random walk of the bias", Between(0, 10));
+  a.Field("bias_instability_rad_per_s", e.bias_instability,
+          "Standard deviation of a first-order Gauss-Markov bias", Between(0, 10));
+  a.Field("bias_time_constant_s", e.bias_time_constant_s, "Its time constant", AboveUpTo(0, 1e9));
+  a.Field("turn_on_bias_rad_per_s", e.turn_on_bias, "Sigma of the bias drawn once a run",
+          Between(0, 10));
+  a.Field("scale", e.scale, "Sigma of the scale error drawn once an axis", Between(0, 1));
+  a.Field("misalignment_rad", e.misalignment, "Sigma of each off-diagonal term drawn once",
+          Between(0, 1));
+  a.Field("g_sensitivity_rad_per_s_per_m_s2", e.g_sensitivity,
+          "Sigma of each term of the sensitivity to specific force, drawn once", Between(0, 1));
+  a.Field("range_rad_per_s", e.range, "Clips at plus and minus this; 0: no limit", Between(0, 1e4));
+  a.Field("resolution_rad_per_s", e.resolution, "Of one bit; 0: not quantised", Between(0, 10));
+}
+
+template <class Archive>
+void DescribeAccelErrors(Archive& a, sim::TriadErrors& e) {
+  a.Field("noise_density_m_per_s2_sqrt_hz", e.noise_density, "White noise", Between(0, 100));
+  a.Field("bias_walk_m_per_s3_sqrt_hz", e.bias_walk, "Random walk of the bias", Between(0, 100));
+  a.Field("bias_instability_m_per_s2", e.bias_instability,
+          "Standard deviation of a first-order Gauss-Markov bias", Between(0, 100));
+  a.Field("bias_time_constant_s", e.bias_time_constant_s, "Its time constant", AboveUpTo(0, 1e9));
+  a.Field("turn_on_bias_m_per_s2", e.turn_on_bias, "Sigma of the bias drawn once a run",
+          Between(0, 100));
+  a.Field("scale", e.scale, "Sigma of the scale error drawn once an axis", Between(0, 1));
+  a.Field("misalignment_rad", e.misalignment, "Sigma of each off-diagonal term drawn once",
+          Between(0, 1));
+  a.Field("range_m_per_s2", e.range, "Clips at plus and minus this; 0: no limit", Between(0, 1e5));
+  a.Field("resolution_m_per_s2", e.resolution, "Of one bit; 0: not quantised", Between(0, 100));
+}
+
+/// Fills the triads of `imu` with those of its grade.
+void ApplyGrade(sim::ImuConfig& imu);
+
+template <class Archive>
+void DescribeErrors(Archive& a, sim::ImuConfig& e) {
+  DescribeTiming(a, e.timing);
+  a.Word("grade", e.grade, ImuGrades(),
+         "Data-sheet errors; what is written under gyro and accel wins over them");
+  if constexpr (!Archive::kWrites) ApplyGrade(e);
+  a.Field("mode", e.mode, "What a sample is");
+  a.Group("gyro", "Errors of the gyroscope", [&e](auto& sub) { DescribeGyroErrors(sub, e.gyro); });
+  a.Group("accel", "Errors of the accelerometer",
+          [&e](auto& sub) { DescribeAccelErrors(sub, e.accel); });
+  a.Field("bandwidth_hz", e.bandwidth_hz, "Of the anti-alias filter; 0: none", Between(0, 1e5));
+  a.Field("bandwidth_poles", e.bandwidth_poles, "Poles of that filter", Between(1, 2));
+}
+
+template <class Archive>
+void DescribeErrors(Archive& a, sim::EncoderConfig& e) {
+  DescribeTiming(a, e.timing);
+  a.Field("counts_per_rad", e.counts_per_rad, "At the wheel; 0: not quantised", Between(0, 1e9));
+  a.Field("noise_rad", e.noise_rad, "White, per reading, before quantisation", Between(0, 1));
+  a.Field("eccentricity_rad", e.eccentricity_rad, "Amplitude of an error once a turn",
+          Between(0, 1));
+  a.Field("offset_rad", e.offset_rad, "Sigma of the constant offset drawn once", Between(0, 100));
+  a.Field("scale", e.scale, "Sigma of the scale error drawn once an encoder", Between(0, 1));
+  a.Field("rate_window_s", e.rate_window_s, "The firmware differences counts over this window",
+          AboveUpTo(0, 10));
+}
+
+template <class Archive>
+void DescribeErrors(Archive& a, sim::BodyVelocityConfig& e) {
+  DescribeTiming(a, e.timing);
+  a.Field("noise_m_per_s", e.noise_m_per_s, "Sigma a sample, along the sensor's axes",
+          Between(0, 100));
+}
+
+/// The kind of sensor that `errors` holds: both lists have the same order.
+inline models::SensorKind KindOf(const sim::SensorErrors& errors) {
+  return static_cast<models::SensorKind>(errors.index());
+}
+
+/// The errors that a sensor of this kind has before anything is written.
+sim::SensorErrors DefaultErrors(models::SensorKind kind);
+
+template <class Archive>
+void Describe(Archive& a, SensorConfig& s) {
+  models::SensorKind kind = KindOf(s.errors);
+  a.Kind("type", kind, Choices<models::SensorKind>(), "What it sends", Need::kSomewhere);
+  if (kind != KindOf(s.errors)) s.errors = DefaultErrors(kind);
+  a.Field("frame", s.frame, "The URDF link that is the sensor's frame", {}, Need::kSomewhere);
+  std::visit([&a](auto& errors) { DescribeErrors(a, errors); }, s.errors);
+}
+
+template <class Archive>
+void Describe(Archive& a, sim::FaultConfig& f) {
+  using Kind = sim::FaultKind;
+  a.Field("sensor", f.sensor, "The sensor that it strikes", {}, Need::kHere);
+  a.Kind("kind", f.kind, Choices<Kind>(), "What happens", Need::kHere);
+  a.Field("at_s", f.at_s, "When it begins", Between(0, 1e6), Need::kHere);
+  a.Field("for_s", f.for_s, "How long it lasts", AboveUpTo(0, 1e6));
+  switch (f.kind) {
+    case Kind::kBiasStep:
+      a.Field("offset", f.magnitude, "Added to every channel, in its own unit", Between(-1e6, 1e6),
+              Need::kHere);
+      break;
+    case Kind::kScaleStep:
+      a.Field("factor", f.magnitude, "Multiplies every channel", Between(-1e3, 1e3), Need::kHere);
+      break;
+    case Kind::kSaturation:
+      a.Field("limit", f.magnitude, "Every channel is clipped at plus and minus this, in its unit",
+              AboveUpTo(0, 1e6), Need::kHere);
+      break;
+    case Kind::kExtraDelay:
+      a.Field("delay_s", f.magnitude, "Added to the arrival", Between(0, 60), Need::kHere);
+      break;
+    case Kind::kTimeJitter:
+      a.Field("std_s", f.magnitude, "Sigma of the error of the time of validity", Between(0, 10),
+              Need::kHere);
+      break;
+    case Kind::kOutlierBurst:
+      a.Field("std", f.magnitude, "Sigma of an outlier, in each channel's unit", Between(0, 1e6),
+              Need::kHere);
+      break;
+    case Kind::kDropout:
+    case Kind::kStuck:
+    case Kind::kNanBurst:
+      break;
+  }
+}
+
+}  // namespace reckon::harness

@@ -1,0 +1,109 @@
+#include "reckon/harness/robot_file.h"
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "reckon/harness/describe_reader.h"
+#include "reckon/harness/describe_scenario.h"
+#include "reckon/harness/scenario_paths.h"
+#include "reckon/harness/yaml_load.h"
+
+namespace reckon::harness {
+
+template <class Archive>
+void Describe(Archive& a, RobotFile& r) {
+  a.Field("description", r.description, "A sentence for people");
+  a.Field("urdf", r.urdf, "The URDF, relative to this folder", {}, Need::kHere);
+  a.Field("base_link", r.base_link, "The link that is the body frame");
+  a.Field("drive", r.drive, "Motors and tyres");
+  a.Field("sensors", r.sensors, "The robot's own sensors");
+  a.Field("nominal", r.nominal, "The robot as estimators know it");
+}
+
+namespace {
+
+models::Pose ActualPose(const models::Pose& X_BS, const SensorConfig& sensor,
+                        const sim::ActualConfig& actual) {
+  if (!std::holds_alternative<sim::ImuConfig>(sensor.errors)) return X_BS;
+  const Eigen::Vector3d turn = actual.imu_rotation_deg * (std::numbers::pi / 180.0);
+  const double angle = turn.norm();
+  models::Pose X = X_BS;
+  X.p += actual.imu_offset_m;
+  if (angle > 0.0) X.R = Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() * X_BS.R;
+  return X;
+}
+
+models::TimeNs PeriodOf(const SensorConfig& sensor) {
+  const auto rate = [](const auto& errors) { return errors.timing.rate_hz; };
+  return std::llround(1e9 / std::visit(rate, sensor.errors));
+}
+
+models::WheelDrive WheelsOf(const Scenario& scenario) {
+  const NominalWheels& nominal = scenario.nominal.wheels;
+  models::WheelDrive wheels;
+  wheels.encoders = nominal.encoders;
+  int entry = 0;
+  for (std::size_t i = 0; i < scenario.drive.left_joints.size(); ++i)
+    wheels.left.push_back(entry++);
+  for (std::size_t i = 0; i < scenario.drive.right_joints.size(); ++i) {
+    wheels.right.push_back(entry++);
+  }
+  wheels.rolling_radius_m = nominal.rolling_radius_m;
+  wheels.effective_track_m = nominal.effective_track_m;
+  wheels.X_BS.p = Eigen::Vector3d(nominal.origin_m[0], nominal.origin_m[1], nominal.origin_m[2]);
+  return wheels;
+}
+
+}  // namespace
+
+LoadedRobotFile LoadRobotFile(const std::string& name, const Location& where) {
+  const auto folder = FindRobot(name);
+  if (!folder) {
+    Fail(where, "'/robot': there is no robot '" + Shown(name) + "' in models/" +
+                    DidYouMean(name, RobotNames()));
+  }
+  LoadedRobotFile file;
+  file.folder = *folder;
+  file.root = LoadYamlFile(*folder / "robot.yaml");
+  Problems problems;
+  ReadDocument(file.root, problems, file.values);
+  problems.ThrowIfAny();
+  return file;
+}
+
+Robot MakeRobot(const Scenario& scenario, const models::UrdfRobot& urdf) {
+  Robot robot;
+  robot.simulated.name = scenario.robot;
+  robot.simulated.skid_steer = scenario.drive;
+  robot.joints = scenario.drive.left_joints;
+  robot.joints.insert(robot.joints.end(), scenario.drive.right_joints.begin(),
+                      scenario.drive.right_joints.end());
+  for (const auto& [name, sensor] : scenario.sensors) {
+    const models::Pose X_BS = urdf.LinkPose(sensor.frame);
+    const auto id = static_cast<models::SensorId>(robot.sensors.size());
+    robot.nominal.sensors.push_back({name, KindOf(sensor.errors), X_BS, PeriodOf(sensor)});
+    robot.sensors.push_back(
+        {name, id, ActualPose(X_BS, sensor, scenario.world.actual), sensor.errors});
+  }
+  const bool has_wheels = scenario.sensors.contains(scenario.nominal.wheels.encoders);
+  if (has_wheels) robot.nominal.wheels = WheelsOf(scenario);
+  return robot;
+}
+
+Robot LoadRobot(const Scenario& scenario) {
+  const Location where{std::make_shared<const std::string>("robot " + scenario.robot), 0, 0};
+  const LoadedRobotFile file = LoadRobotFile(scenario.robot, where);
+  const std::filesystem::path urdf_path = file.folder / file.values.urdf;
+  try {
+    Robot robot = MakeRobot(scenario, models::UrdfRobot::FromFile(urdf_path.string()));
+    robot.simulated.urdf_path = urdf_path.string();
+    robot.simulated.base_link = file.values.base_link;
+    return robot;
+  } catch (const std::invalid_argument& error) {
+    Fail(where, error.what());
+  }
+}
+
+}  // namespace reckon::harness

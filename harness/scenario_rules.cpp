@@ -1,0 +1,241 @@
+#include "reckon/harness/scenario_rules.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "reckon/harness/nearest.h"
+#include "reckon/harness/scenario_metrics.h"
+#include "reckon/harness/yaml_values.h"
+
+namespace reckon::harness {
+namespace {
+
+using Names = std::vector<std::string>;
+
+template <class T>
+Names KeysOf(const std::map<std::string, T>& map) {
+  Names names;
+  for (const auto& [name, value] : map) names.push_back(name);
+  return names;
+}
+
+/// The rules, with what all of them need.
+class Rules {
+ public:
+  Rules(const Scenario& scenario, const YamlNode& root, Problems& problems)
+      : s_(scenario), root_(root), problems_(problems), sensors_(KeysOf(scenario.sensors)) {}
+
+  void Run(const models::UrdfRobot& urdf) const {
+    CheckWorld();
+    CheckMotion();
+    CheckSensors(urdf);
+    CheckDrive(urdf);
+    CheckFaults();
+    for (const auto& [name, estimator] : s_.estimators) CheckEstimator(name, estimator);
+    CheckRate("/record/truth_rate_hz", s_.record.truth_rate_hz);
+    Require(s_.score.start_s < s_.duration_s, "/score/start_s", "a time before the run's end");
+    CheckExpectations();
+  }
+
+ private:
+  /// Where the value at `path` was written, or else what holds it.
+  Location Where(std::string path) const {
+    while (!path.empty()) {
+      if (const YamlNode* node = root_.At(path)) return node->at;
+      path.resize(path.rfind('/'));
+    }
+    return root_.at;
+  }
+
+  void Complain(const std::string& path, const std::string& what) const {
+    problems_.Add(Where(path), "'" + path + "': " + what);
+  }
+
+  void Require(bool holds, const std::string& path, const std::string& expected) const {
+    if (holds) return;
+    const YamlNode* node = root_.At(path);
+    Complain(path, "expected " + expected + (node != nullptr ? ", found " + Found(*node) : ""));
+  }
+
+  void RequireOneOf(const std::string& name, const Names& names, const std::string& path,
+                    const std::string& what) const {
+    if (std::find(names.begin(), names.end(), name) != names.end()) return;
+    Complain(path, "there is no " + what + " '" + Shown(name) + "'" + DidYouMean(name, names));
+  }
+
+  /// A rate must be an integer fraction of the physics rate.
+  void CheckRate(const std::string& path, double rate_hz) const {
+    const double steps = 1.0 / (rate_hz * s_.world.physics_step_s);
+    const double whole = std::max(1.0, std::round(steps));
+    constexpr double kRoundOff = 1e-9;
+    if (std::abs(steps - whole) <= kRoundOff * whole) return;
+    const double nearest = 1.0 / (whole * s_.world.physics_step_s);
+    Complain(path, "expected an integer fraction of the physics rate of " +
+                       NumberText(1.0 / s_.world.physics_step_s) + " Hz, found " +
+                       NumberText(rate_hz) + "; the nearest is " + NumberText(nearest));
+  }
+
+  void CheckWorld() const {
+    const double step_ns = s_.world.physics_step_s * 1e9;
+    Require(std::abs(step_ns - std::round(step_ns)) < 1e-6, "/world/physics_step_s",
+            "a whole number of nanoseconds");
+    const sim::TerrainConfig& t = s_.world.terrain;
+    Require(t.kind != sim::TerrainKind::kRough || t.shortest_wave_m < t.longest_wave_m,
+            "/world/terrain/longest_wave_m", "more than shortest_wave_m");
+    Require(t.kind != sim::TerrainKind::kKerbs || t.kerb_width_m < t.kerb_spacing_m,
+            "/world/terrain/kerb_spacing_m", "more than kerb_width_m");
+    for (std::size_t i = 0; i < s_.world.patches.size(); ++i) {
+      const auto& box = s_.world.patches[i].box_m;
+      Require(box[2] > 0 && box[3] > 0, "/world/patches/" + std::to_string(i) + "/box_m",
+              "[centre x, centre y, size x, size y] with sizes above 0");
+    }
+  }
+
+  void CheckMotion() const {
+    const sim::MotionConfig& m = s_.world.motion;
+    if (m.path == sim::PathKind::kWaypoints) {
+      Require(!m.waypoints_m.empty(), "/motion/waypoints_m", "at least one point [x, y]");
+    }
+    if (m.path != sim::PathKind::kVelocityProfile) return;
+    Require(!m.profile.empty(), "/motion/profile", "at least one row [t_s, v_m_s, yaw_rate_rad_s]");
+    double last = -1.0;
+    for (std::size_t i = 0; i < m.profile.size(); ++i) {
+      const auto& row = m.profile[i];
+      const std::string path = "/motion/profile/" + std::to_string(i);
+      Require(row[0] > last && row[0] >= 0.0, path + "/0", "times of at least 0 that rise");
+      Require(std::abs(row[1]) <= 20.0, path + "/1", "a speed from -20 to 20");
+      Require(std::abs(row[2]) <= 20.0, path + "/2", "a turn rate from -20 to 20");
+      last = row[0];
+    }
+  }
+
+  void CheckSensors(const models::UrdfRobot& urdf) const {
+    Names links;
+    for (const auto& link : urdf.links()) links.push_back(link.name);
+    for (const auto& [name, sensor] : s_.sensors) {
+      const std::string path = "/sensors/" + name;
+      RequireOneOf(sensor.frame, links, path + "/frame", "link in the URDF called");
+      const auto rate = [](const auto& errors) { return errors.timing.rate_hz; };
+      CheckRate(path + "/rate_hz", std::visit(rate, sensor.errors));
+      if (const auto* encoders = std::get_if<sim::EncoderConfig>(&sensor.errors)) {
+        CheckRate(path + "/rate_window_s", 1.0 / encoders->rate_window_s);
+      }
+    }
+    const std::string& wheels = s_.nominal.wheels.encoders;
+    const auto it = s_.sensors.find(wheels);
+    if (it == s_.sensors.end()) return;  // removed: then there are no wheels to believe in
+    Require(std::holds_alternative<sim::EncoderConfig>(it->second.errors),
+            "/nominal/wheels/encoders", "a sensor of type encoders");
+    Require(s_.nominal.wheels.rolling_radius_m > 0, "/nominal/wheels/rolling_radius_m",
+            "a number above 0");
+    Require(s_.nominal.wheels.effective_track_m > 0, "/nominal/wheels/effective_track_m",
+            "a number above 0");
+  }
+
+  void CheckDrive(const models::UrdfRobot& urdf) const {
+    Names joints;
+    for (const auto& joint : urdf.joints()) joints.push_back(joint.name);
+    std::set<std::string> seen;
+    for (const auto& [key, side] : {std::pair{"left_joints", &s_.drive.left_joints},
+                                    std::pair{"right_joints", &s_.drive.right_joints}}) {
+      const std::string path = std::string("/drive/") + key;
+      for (std::size_t i = 0; i < side->size(); ++i) {
+        const std::string place = path + "/" + std::to_string(i);
+        RequireOneOf((*side)[i], joints, place, "joint in the URDF called");
+        Require(seen.insert((*side)[i]).second, place, "each joint once");
+      }
+      Require(!side->empty(), path, "at least one joint");
+    }
+    if (s_.drive.left_joints.size() + s_.drive.right_joints.size() > models::kMaxEncoders) {
+      Complain("/drive", "more than " + std::to_string(models::kMaxEncoders) + " wheels");
+    }
+  }
+
+  void CheckFaults() const {
+    for (std::size_t i = 0; i < s_.faults.size(); ++i) {
+      const std::string path = "/faults/" + std::to_string(i);
+      RequireOneOf(s_.faults[i].sensor, sensors_, path + "/sensor", "sensor");
+      Require(s_.faults[i].at_s < s_.duration_s, path + "/at_s", "a time before the run's end");
+    }
+  }
+
+  void CheckEstimator(const std::string& name, const EstimatorConfig& estimator) const {
+    const std::string path = "/estimators/" + name;
+    if (name == "truth" || name == "compare" || name == "exit_code") {
+      Complain(path, "this name is taken; choose another for the estimator");
+    }
+    std::set<std::string> seen;
+    for (std::size_t i = 0; i < estimator.sensors.size(); ++i) {
+      const std::string place = path + "/sensors/" + std::to_string(i);
+      RequireOneOf(estimator.sensors[i], sensors_, place, "sensor");
+      Require(seen.insert(estimator.sensors[i]).second, place, "each sensor once");
+    }
+    for (const auto& [sensor, error] : estimator.mounting_error) {
+      RequireOneOf(sensor, sensors_, path + "/mounting_error/" + sensor, "sensor");
+    }
+    if (estimator.type == "process") {
+      Require(!estimator.command.empty() && !estimator.command.front().empty(), path + "/command",
+              "a program and its arguments");
+      return;
+    }
+    if (!Sees<sim::ImuConfig>(estimator)) {
+      Complain(path, "type '" + estimator.type + "' needs an IMU, and is given none");
+    }
+    if (estimator.type == "odometry" && !s_.sensors.contains(s_.nominal.wheels.encoders)) {
+      Complain(path, "type 'odometry' needs wheel encoders, and this robot has none");
+    } else if (estimator.type == "odometry" && !IsGiven(estimator, s_.nominal.wheels.encoders)) {
+      Complain(path, "type 'odometry' needs wheel encoders, and is given none");
+    }
+  }
+
+  static bool IsGiven(const EstimatorConfig& estimator, const std::string& sensor) {
+    const auto& given = estimator.sensors;
+    return given.empty() || std::find(given.begin(), given.end(), sensor) != given.end();
+  }
+
+  /// Whether the estimator is given a sensor of this type.
+  template <class Config>
+  bool Sees(const EstimatorConfig& estimator) const {
+    return std::any_of(s_.sensors.begin(), s_.sensors.end(), [&](const auto& entry) {
+      return std::holds_alternative<Config>(entry.second.errors) && IsGiven(estimator, entry.first);
+    });
+  }
+
+  void CheckExpectations() const {
+    const Names metrics = MetricNames(sensors_, s_.score);
+    const Names estimators = KeysOf(s_.estimators);
+    for (const auto& [name, expectation] : s_.expect.estimators) {
+      const std::string path = "/expect/" + name;
+      RequireOneOf(name, estimators, path, "estimator");
+      for (const Bound& bound : expectation.bounds) {
+        const std::string place = path + "/" + bound.metric;
+        RequireOneOf(bound.metric, metrics, place, "metric");
+        Require(bound.min || bound.max, place, "a bound `min` or `max`");
+        Require(!bound.min || !bound.max || *bound.min <= *bound.max, place, "min of at most max");
+      }
+    }
+    for (std::size_t i = 0; i < s_.expect.compare.size(); ++i) {
+      const Comparison& c = s_.expect.compare[i];
+      const std::string path = "/expect/compare/" + std::to_string(i);
+      RequireOneOf(c.left_estimator, estimators, path, "estimator");
+      RequireOneOf(c.right_estimator, estimators, path, "estimator");
+      RequireOneOf(c.left_metric, metrics, path, "metric");
+      RequireOneOf(c.right_metric, metrics, path, "metric");
+    }
+  }
+
+  const Scenario& s_;
+  const YamlNode& root_;
+  Problems& problems_;
+  Names sensors_;
+};
+
+}  // namespace
+
+void CheckScenario(const Scenario& scenario, const models::UrdfRobot& urdf, const YamlNode& root,
+                   Problems& problems) {
+  Rules(scenario, root, problems).Run(urdf);
+}
+
+}  // namespace reckon::harness
