@@ -12,6 +12,9 @@ namespace reckon::sim {
 struct Timing {
   double rate_hz = 200.0;   ///< an integer fraction of the physics rate
   double latency_s = 0.0;   ///< from validity to arrival
+  /// The sensor's clock is off: a sample of instant t claims to be valid at t + this. It arrives
+  /// `latency_s` after both.
+  double stamp_error_s = 0.0;
 };
 
 /// The errors of one triad (gyroscope or accelerometer), `sensor_models.md` 3.1. SI units; u is
@@ -37,7 +40,7 @@ struct ImuConfig {
   Timing timing;
   std::string grade = "perfect";
   ImuMode mode = ImuMode::kIncrement;
-  TriadErrors gyro, accel;
+  TriadErrors gyro = {}, accel = {};
   double bandwidth_hz = 0.0;   ///< of the anti-alias filter inside the physics step; 0: none
   int bandwidth_poles = 2;     ///< 1 or 2
 };
