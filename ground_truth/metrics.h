@@ -14,13 +14,15 @@ namespace reckon::ground_truth {
 /// One score: a stable name that holds its unit, and its value.
 struct Metric {
   std::string name;
-  double value = 0.0;    ///< NaN if it has none
-  bool applies = true;   ///< false: this estimator or run has no such score (no covariance, no path)
+  double value = 0.0;   ///< NaN if it has none
+  bool applies = true;  ///< false: this estimator or run has no such score (no covariance, no path)
+  std::string unit, meaning;
 };
 
 /// The scores of one estimator in one run, in the order of the catalogue.
 class Metrics {
  public:
+  void Add(Metric metric) { list_.push_back(std::move(metric)); }
   void Add(std::string name, double value, bool applies = true);
 
   const std::vector<Metric>& list() const { return list_; }
@@ -38,6 +40,9 @@ class Metrics {
 /// All scores of `track`. `sensors` names the sensors by id.
 Metrics Score(const Track& track, const std::vector<std::string>& sensors,
               const ScoreOptions& options);
+
+/// All metrics that Score gives for such sensors and options: names, units and meanings, no values.
+Metrics MetricCatalogue(const std::vector<std::string>& sensors, const ScoreOptions& options);
 
 /// {"valid": …, "<name>": value or null, …}; the same metrics give the same bytes.
 nlohmann::ordered_json ToJson(const Metrics& metrics);

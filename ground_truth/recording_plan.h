@@ -11,15 +11,15 @@ namespace reckon::ground_truth {
 
 /// A sensor whose measurements are recorded; its place in the plan is its `SensorId`.
 struct RecordedSensor {
-  models::MountedSensor sensor;        ///< as the nominal robot mounts it
-  std::vector<std::string> channels;   ///< encoders: a name for each entry of a sample
+  models::MountedSensor sensor;       ///< as the nominal robot mounts it
+  std::vector<std::string> channels;  ///< encoders: a name for each entry of a sample
 };
 
 /// What a recording holds. All its streams are made before the run starts.
 struct RecordingPlan {
   std::vector<RecordedSensor> sensors;
   std::vector<std::string> estimators;
-  std::vector<std::string> wheels;     ///< a name for each wheel of the truth
+  std::vector<std::string> wheels;  ///< a name for each wheel of the truth
   bool truth = true, measurements = true, estimates = true, covariance = true, corrections = true;
   models::TimeNs truth_period_ns = 0;     ///< truth is kept at multiples of this; 0: every instant
   models::TimeNs estimate_period_ns = 0;  ///< likewise for estimates

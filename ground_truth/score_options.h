@@ -8,7 +8,8 @@ namespace reckon::ground_truth {
 enum class Alignment {
   kNone,
   kFirstPose,    ///< evo's --align_origin: the first pose of both coincides
-  kYawPosition,  ///< least squares over yaw and position: what a filter without a compass can't know
+  kYawPosition,  ///< least squares over yaw and position: what a filter without a compass can't
+                 ///< know
   kSe3,          ///< evo's --align: Umeyama without scale, on positions
   kSim3,         ///< evo's --align --correct_scale
   kFirstYawPosition,  ///< yaw and position of the first pose: an initial tilt error stays an error
@@ -16,9 +17,10 @@ enum class Alignment {
 
 struct ScoreOptions {
   Alignment align = Alignment::kFirstPose;
-  std::vector<double> rpe_m{1.0, 10.0};   ///< segment lengths of the relative error, metres of true path
-  std::vector<double> rpe_s{10.0};        ///< windows of the relative error, seconds
-  double start_s = 0.0;                   ///< nothing before this is scored
+  std::vector<double> rpe_m{1.0,
+                            10.0};  ///< segment lengths of the relative error, metres of true path
+  std::vector<double> rpe_s{10.0};  ///< windows of the relative error, seconds
+  double start_s = 0.0;             ///< nothing before this is scored
 };
 
 }  // namespace reckon::ground_truth

@@ -17,9 +17,10 @@ struct Truth {
   /// Biases of the primary IMU in the axes of I (the IMU's origin, B's axes): R_BS b_S.
   Eigen::Vector3d gyro_bias_rad_s = Eigen::Vector3d::Zero();
   Eigen::Vector3d accel_bias_m_s2 = Eigen::Vector3d::Zero();
-  models::EncoderVector wheel_rate_rad_s;   ///< true spin, left to right and front to rear as modelled
-  models::EncoderVector wheel_slip_m_s;     ///< speed of each contact point over the ground
-  models::EncoderVector wheel_load_n;       ///< normal force on each wheel
+  models::EncoderVector
+      wheel_rate_rad_s;                  ///< true spin, left to right and front to rear as modelled
+  models::EncoderVector wheel_slip_m_s;  ///< speed of each contact point over the ground
+  models::EncoderVector wheel_load_n;    ///< normal force on each wheel
 };
 
 }  // namespace reckon::ground_truth

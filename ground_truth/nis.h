@@ -1,0 +1,39 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "reckon/estimator/report.h"
+#include "reckon/ground_truth/track.h"
+
+namespace reckon::ground_truth {
+
+/// The innovations of one sensor over a run. Rejected ones count like all others: leaving them out
+/// would hide an inconsistent filter behind its gate.
+struct NisStatistics {
+  std::size_t corrections = 0;  ///< how many have a NIS (all but refused ones)
+  double mean = 0.0;            ///< time-mean of the NIS; NaN without corrections
+  double dof = 0.0;             ///< mean number of rows: what `mean` is if the filter is honest
+  /// Whiteness: Σ u_kᵀ u_k+1 / Σ u_kᵀ u_k of the whitened innovations u = L⁻¹ z.
+  double lag1 = 0.0;
+  /// How many independent corrections carry as much information about the mean as these:
+  /// corrections / τ, τ = 1 + 2 Σ ρ_k over the NIS' autocorrelation up to its first ρ_k ≤ 0.
+  double independent = 0.0;
+};
+
+NisStatistics NisOf(std::span<const TrackCorrection> corrections, models::SensorId sensor);
+
+inline constexpr std::size_t kDecisions = 5;
+inline constexpr std::size_t kRefusals = 10;
+
+/// What became of one sensor's measurements.
+struct DecisionCounts {
+  std::array<std::size_t, kDecisions> decisions{};  ///< corrections, by `estimator::Decision`
+  std::array<std::size_t, kRefusals> refusals{};    ///< by `estimator::Refusal`: whole or in part
+};
+
+DecisionCounts CountDecisions(const Track& track, models::SensorId sensor);
+
+}  // namespace reckon::ground_truth

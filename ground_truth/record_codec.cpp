@@ -1,0 +1,206 @@
+#include "reckon/ground_truth/record_codec.h"
+
+namespace reckon::ground_truth {
+namespace {
+
+void Put(const models::ImuSample& sample, RowEncoder& row) {
+  row.Put(sample.gyro_rad_s);
+  row.Put(sample.accel_m_s2);
+  row.Put(sample.interval_ns);
+  row.Put(sample.gyro_saturated);
+  row.Put(sample.accel_saturated);
+}
+
+void Put(const models::EncoderSample& sample, RowEncoder& row) {
+  for (int i = 0; i < sample.angle_rad.size(); ++i) row.Put(sample.angle_rad[i]);
+  for (int i = 0; i < sample.rate_rad_s.size(); ++i) row.Put(sample.rate_rad_s[i]);
+  row.Put(sample.interval_ns);
+}
+
+void Put(const models::BodyVelocitySample& sample, RowEncoder& row) {
+  row.Put(sample.v_WS_S);
+  row.Put(sample.covariance);
+}
+
+models::Sample GetImu(RowDecoder& row) {
+  models::ImuSample sample;
+  sample.gyro_rad_s = row.Vector();
+  sample.accel_m_s2 = row.Vector();
+  sample.interval_ns = row.Get<models::TimeNs>();
+  sample.gyro_saturated = row.Flag();
+  sample.accel_saturated = row.Flag();
+  return sample;
+}
+
+models::Sample GetEncoders(RowDecoder& row, int channels) {
+  models::EncoderSample sample;
+  sample.angle_rad.resize(channels);
+  sample.rate_rad_s.resize(channels);
+  for (double& angle : sample.angle_rad) angle = row.Get<double>();
+  for (double& rate : sample.rate_rad_s) rate = row.Get<double>();
+  sample.interval_ns = row.Get<models::TimeNs>();
+  return sample;
+}
+
+models::Sample GetBodyVelocity(RowDecoder& row) {
+  models::BodyVelocitySample sample;
+  sample.v_WS_S = row.Vector();
+  sample.covariance = row.Matrix();
+  return sample;
+}
+
+template <class State>
+void PutPose(const State& state, RowEncoder& row) {
+  row.Put(state.t_ns);
+  row.Put(state.X_WB.R);
+  row.Put(state.X_WB.p);
+  row.Put(state.v_WB);
+}
+
+template <class State>
+void GetPose(State& state, RowDecoder& row) {
+  state.t_ns = row.Get<models::TimeNs>();
+  state.X_WB.R = row.Matrix();
+  state.X_WB.p = row.Vector();
+  state.v_WB = row.Vector();
+}
+
+template <class State>
+void PutBiases(const State& state, RowEncoder& row) {
+  row.Put(state.gyro_bias_rad_s);
+  row.Put(state.accel_bias_m_s2);
+}
+
+template <class State>
+void GetBiases(State& state, RowDecoder& row) {
+  state.gyro_bias_rad_s = row.Vector();
+  state.accel_bias_m_s2 = row.Vector();
+}
+
+}  // namespace
+
+void Encode(const Truth& truth, RowEncoder& row) {
+  PutPose(truth, row);
+  row.Put(truth.w_WB_B);
+  PutBiases(truth, row);
+  for (int i = 0; i < truth.wheel_rate_rad_s.size(); ++i) {
+    row.Put(truth.wheel_rate_rad_s[i]);
+    row.Put(truth.wheel_slip_m_s[i]);
+    row.Put(truth.wheel_load_n[i]);
+  }
+}
+
+void Encode(const models::Measurement& measurement, std::uint64_t order, RowEncoder& row) {
+  row.Put(order);
+  row.Put(measurement.valid_ns);
+  row.Put(measurement.arrival_ns);
+  std::visit([&row](const auto& sample) { Put(sample, row); }, measurement.sample);
+}
+
+void Encode(const estimator::Estimate& estimate, std::int64_t covariance_row, RowEncoder& row) {
+  PutPose(estimate, row);
+  PutBiases(estimate, row);
+  row.Put(covariance_row);
+  row.Put(static_cast<std::uint8_t>(estimate.form));
+  row.Put(estimate.has_covariance);
+  row.Put(estimate.has_biases);
+}
+
+void Encode(const estimator::Correction& correction, std::uint64_t order, RowEncoder& row) {
+  row.Put(correction.t_ns);
+  row.Put(order);
+  row.Put(correction.sensor);
+  row.Put(static_cast<std::uint8_t>(correction.decision));
+  row.Put(static_cast<std::uint8_t>(correction.reason));
+  row.Put(static_cast<std::uint8_t>(correction.rows));
+  row.Put(correction.innovation);
+  row.PutSymmetric(correction.covariance);
+  row.Put(correction.nis);
+}
+
+void Encode(const models::Measurement& measurement, estimator::Refusal reason, std::uint64_t order,
+            RowEncoder& row) {
+  row.Put(measurement.valid_ns);
+  row.Put(measurement.arrival_ns);
+  row.Put(order);
+  row.Put(measurement.sensor);
+  row.Put(static_cast<std::uint8_t>(reason));
+}
+
+void Encode(const estimator::Prior& prior, RowEncoder& row) {
+  PutPose(prior, row);
+  row.Put(prior.w_WB_B);
+  PutBiases(prior, row);
+}
+
+Truth DecodeTruth(RowDecoder& row, int wheels) {
+  Truth truth;
+  GetPose(truth, row);
+  truth.w_WB_B = row.Vector();
+  GetBiases(truth, row);
+  truth.wheel_rate_rad_s.resize(wheels);
+  truth.wheel_slip_m_s.resize(wheels);
+  truth.wheel_load_n.resize(wheels);
+  for (int i = 0; i < wheels; ++i) {
+    truth.wheel_rate_rad_s[i] = row.Get<double>();
+    truth.wheel_slip_m_s[i] = row.Get<double>();
+    truth.wheel_load_n[i] = row.Get<double>();
+  }
+  return truth;
+}
+
+models::Measurement DecodeMeasurement(RowDecoder& row, models::SensorId sensor,
+                                      models::SensorKind kind, int channels, std::uint64_t* order) {
+  models::Measurement measurement;
+  measurement.sensor = sensor;
+  *order = row.Get<std::uint64_t>();
+  measurement.valid_ns = row.Get<models::TimeNs>();
+  measurement.arrival_ns = row.Get<models::TimeNs>();
+  switch (kind) {
+    case models::SensorKind::kImu:
+      measurement.sample = GetImu(row);
+      break;
+    case models::SensorKind::kEncoders:
+      measurement.sample = GetEncoders(row, channels);
+      break;
+    case models::SensorKind::kBodyVelocity:
+      measurement.sample = GetBodyVelocity(row);
+      break;
+  }
+  return measurement;
+}
+
+estimator::Estimate DecodeEstimate(RowDecoder& row, std::int64_t* covariance_row) {
+  estimator::Estimate estimate;
+  GetPose(estimate, row);
+  GetBiases(estimate, row);
+  *covariance_row = row.Get<std::int64_t>();
+  estimate.form = static_cast<estimator::ErrorForm>(row.Get<std::uint8_t>());
+  estimate.has_covariance = row.Flag();
+  estimate.has_biases = row.Flag();
+  return estimate;
+}
+
+estimator::Correction DecodeCorrection(RowDecoder& row) {
+  estimator::Correction correction;
+  correction.t_ns = row.Get<models::TimeNs>();
+  (void)row.Get<std::uint64_t>();
+  correction.sensor = row.Get<models::SensorId>();
+  correction.decision = static_cast<estimator::Decision>(row.Get<std::uint8_t>());
+  correction.reason = static_cast<estimator::Refusal>(row.Get<std::uint8_t>());
+  correction.rows = row.Get<std::uint8_t>();
+  correction.innovation = row.Vector();
+  row.GetSymmetric(correction.covariance);
+  correction.nis = row.Get<double>();
+  return correction;
+}
+
+estimator::Prior DecodePrior(RowDecoder& row) {
+  estimator::Prior prior;
+  GetPose(prior, row);
+  prior.w_WB_B = row.Vector();
+  GetBiases(prior, row);
+  return prior;
+}
+
+}  // namespace reckon::ground_truth

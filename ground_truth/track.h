@@ -1,0 +1,74 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "reckon/estimator/estimate.h"
+#include "reckon/estimator/report.h"
+#include "reckon/ground_truth/nees.h"
+#include "reckon/ground_truth/truth.h"
+#include "reckon/models/measurement.h"
+#include "reckon/models/pose.h"
+
+namespace reckon::ground_truth {
+
+/// Truth and estimate of the body at one instant.
+struct TrackSample {
+  models::TimeNs t_ns = 0;
+  models::Pose X_WB_true, X_WB;
+  Eigen::Vector3d v_WB_true = Eigen::Vector3d::Zero(), v_WB = Eigen::Vector3d::Zero();
+  Eigen::Vector3d gyro_bias_error_rad_s = Eigen::Vector3d::Zero();  ///< estimate − truth
+  Eigen::Vector3d accel_bias_error_m_s2 = Eigen::Vector3d::Zero();  ///< estimate − truth
+  Nees nees;
+};
+
+/// One correction, as far as it is scored.
+struct TrackCorrection {
+  models::TimeNs t_ns = 0;
+  models::SensorId sensor = 0;
+  estimator::Decision decision = estimator::Decision::kAccepted;
+  estimator::Refusal reason = estimator::Refusal::kNone;
+  int rows = 0;
+  int ordinal = 0;  ///< its place among the corrections that one measurement caused
+  double nis = 0.0;
+  Eigen::Vector3d whitened = Eigen::Vector3d::Zero();  ///< L⁻¹ z with S = L Lᵀ
+};
+
+/// A measurement refused as a whole.
+struct TrackRefusal {
+  models::TimeNs t_ns = 0;
+  models::SensorId sensor = 0;
+  estimator::Refusal reason = estimator::Refusal::kNone;
+};
+
+/// All that scoring needs of one estimator in one run: truth beside estimate at every estimate's
+/// stamp, with the NEES at once, and what became of the measurements. Grows with the run.
+class Track {
+ public:
+  /// `truth` must be of the estimate's instant.
+  void Add(const Truth& truth, const estimator::Estimate& estimate);
+
+  /// What an estimator reported of one measurement. Measurements that it has no use for are not
+  /// refusals.
+  void Add(const models::Measurement& measurement, const estimator::Report& report);
+  void Add(const estimator::Correction& correction);
+  void AddRefusal(models::SensorId sensor, models::TimeNs valid_ns, estimator::Refusal reason);
+
+  const std::vector<TrackSample>& samples() const { return samples_; }
+  const std::vector<TrackCorrection>& corrections() const { return corrections_; }
+  const std::vector<TrackRefusal>& refusals() const { return refusals_; }
+  bool has_covariance() const { return has_covariance_; }
+  bool has_biases() const { return has_biases_; }
+
+  /// The part of the track from `start_ns` on.
+  Track From(models::TimeNs start_ns) const;
+
+ private:
+  std::vector<TrackSample> samples_;
+  std::vector<TrackCorrection> corrections_;
+  std::vector<TrackRefusal> refusals_;
+  bool has_covariance_ = false;
+  bool has_biases_ = false;
+};
+
+}  // namespace reckon::ground_truth
