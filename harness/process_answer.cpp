@@ -188,35 +188,41 @@ estimator::Estimate ParseBelief(const Json& object, const AnswerContext& context
   return belief;
 }
 
-template <typename Enum>
-Enum Named(const Json& value, const std::string& what, std::initializer_list<Enum> choices) {
-  std::string expected = "'" + what + "' to be one of";
-  for (const Enum choice : choices) {
-    if (value.is_string() && value.get_ref<const std::string&>() == Name(choice)) return choice;
-    expected += " " + std::string(Name(choice));
+/// The value called `value` in `names`, whose order is the enumeration's.
+template <typename Enum, std::size_t size>
+Enum Named(const Json& value, const std::string& key,
+           const std::array<std::string_view, size>& names) {
+  std::string expected = "'" + key + "' to be one of";
+  for (std::size_t i = 0; i < size; ++i) {
+    if (value == names[i]) return static_cast<Enum>(i);
+    expected += " " + std::string(names[i]);
   }
   Refuse(expected, Text(value));
 }
 
-estimator::Decision ParseDecision(const Json& value) {
-  using enum estimator::Decision;
-  return Named(value, "decision", {kAccepted, kWarned, kInflated, kRejected, kRefused});
-}
-
-estimator::Refusal ParseRefusal(const Json& value) {
-  using enum estimator::Refusal;
-  return Named(value, "refusal",
-               {kNone, kNotFinite, kNotInitialised, kMoving, kBackwards, kLate, kFromFuture, kGap,
-                kInvalid, kUnused});
-}
+constexpr std::array<std::string_view, 5> kDecisions{"accepted", "warned", "inflated", "rejected",
+                                                     "refused"};
+constexpr std::array<std::string_view, 10> kRefusals{
+    "none",        "not_finite", "not_initialised", "moving", "backwards", "late",
+    "from_future", "gap",        "invalid",         "unused"};
+static_assert(static_cast<std::size_t>(estimator::Decision::kRefused) + 1 == kDecisions.size());
+static_assert(static_cast<std::size_t>(estimator::Refusal::kUnused) + 1 == kRefusals.size());
 
 estimator::Correction ParseCorrection(const Json& object, const AnswerContext& context) {
   if (!object.is_object()) Refuse("'corrections' to be a list of objects", Text(object));
-  CheckKeys(object, {"innovation", "covariance", "decision"});
+  CheckKeys(object, {"sensor", "t_ns", "innovation", "covariance", "decision"});
   estimator::Correction correction;
-  correction.t_ns = context.valid_ns;
+  correction.t_ns = object.contains("t_ns") ? Integer(object, "t_ns") : context.valid_ns;
   correction.sensor = context.sensor;
-  correction.decision = ParseDecision(Member(object, "decision"));
+  if (object.contains("sensor")) {
+    const std::int64_t sensor = Integer(object, "sensor");
+    if (sensor < 0 || static_cast<std::size_t>(sensor) >= context.sensors) {
+      Refuse("'sensor' to be an id of 'hello'", Text(object));
+    }
+    correction.sensor = static_cast<models::SensorId>(sensor);
+  }
+  correction.decision =
+      Named<estimator::Decision>(Member(object, "decision"), "decision", kDecisions);
   const auto z = NumberList(object, "innovation", {1, 2, 3});
   const auto rows = static_cast<Eigen::Index>(z.size());
   const auto S_numbers = NumberList(object, "covariance", {z.size() * z.size()});
@@ -256,7 +262,7 @@ ProcessAnswer ParseAnswer(std::string_view line, const AnswerContext& context) {
                      "covariance", "corrections", "refusal"});
   ProcessAnswer answer;
   if (const auto refusal = object.find("refusal"); refusal != object.end()) {
-    answer.report.refusal = ParseRefusal(*refusal);
+    answer.report.refusal = Named<estimator::Refusal>(*refusal, "refusal", kRefusals);
   }
   if (const auto corrections = object.find("corrections"); corrections != object.end()) {
     if (!corrections->is_array() || corrections->size() > estimator::kMaxCorrections) {

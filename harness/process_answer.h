@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -31,6 +32,7 @@ estimator::ErrorForm ParseReady(std::string_view line);
 /// What an answer is judged by.
 struct AnswerContext {
   estimator::ErrorForm form = estimator::ErrorForm::kRightInvariant;
+  std::size_t sensors = 0;         ///< how many `hello` named
   models::SensorId sensor = 0;     ///< of the measurement that is answered
   models::TimeNs valid_ns = 0;     ///< likewise
   models::TimeNs earliest_ns = 0;  ///< a belief may not be older: the previous belief, or the prior

@@ -27,9 +27,14 @@ std::unique_ptr<ChildProcess> StartChild(const ProcessOptions& options) {
   }
 }
 
+std::string Shortened(std::string text, std::size_t length) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text.size() > length ? text.substr(0, length) + "…" : text;
+}
+
 std::string Describe(const ChildProcess::Answer& answer, const ChildProcess& child,
                      double timeout_s) {
-  const std::string_view text = std::string_view(answer.text).substr(0, 160);
+  const std::string text = Shortened(answer.text, 160);
   const std::string part = text.empty() ? "" : fmt::format(" after the partial line '{}'", text);
   switch (answer.outcome) {
     case ChildProcess::Outcome::kTimeout:
@@ -44,18 +49,19 @@ std::string Describe(const ChildProcess::Answer& answer, const ChildProcess& chi
           "anything else belongs on standard error)",
           text);
     case ChildProcess::Outcome::kTooLong:
-      return fmt::format("a line longer than {} bytes came: '{}…'", ChildProcess::kLongestLine,
+      return fmt::format("a line longer than {} bytes came: '{}'", ChildProcess::kLongestLine,
                          text);
     case ChildProcess::Outcome::kLine:
       break;
   }
-  return std::string(text);
+  return text;
 }
 
 }  // namespace
 
 ProcessEstimator::ProcessEstimator(ProcessOptions options, const estimator::Setup& setup)
     : options_(std::move(options)),
+      sensors_(setup.suite.sensors.size()),
       unsent_hello_(HelloMessage(options_.robot, setup)),
       child_(StartChild(options_)) {}
 
@@ -79,8 +85,8 @@ estimator::Report ProcessEstimator::Process(const models::Measurement& measureme
   latest_ns_ = std::max({latest_ns_, measurement.valid_ns, measurement.arrival_ns});
   ++answered_;
   try {
-    ProcessAnswer answer = ParseAnswer(
-        line, {form_, measurement.sensor, measurement.valid_ns, earliest_ns_, latest_ns_});
+    ProcessAnswer answer = ParseAnswer(line, {form_, sensors_, measurement.sensor,
+                                              measurement.valid_ns, earliest_ns_, latest_ns_});
     if (answer.belief) {
       answer.report.propagated = answer.belief->t_ns > earliest_ns_;
       earliest_ns_ = answer.belief->t_ns;
@@ -106,7 +112,8 @@ void ProcessEstimator::Fail(std::string_view question, std::string_view what) {
   child_->End(kLeaveGrace);
   const std::string errors = child_->LastErrors();
   failure_ = fmt::format("estimator '{}' ({}), answering {}: {}", options_.name,
-                         fmt::join(options_.command, " "), question, what);
+                         Shortened(fmt::format("{}", fmt::join(options_.command, " ")), 160),
+                         question, what);
   failure_ += errors.empty() ? "; it wrote nothing to standard error"
                              : "; its last lines of standard error:\n" + errors;
   throw ProcessFailure(failure_);

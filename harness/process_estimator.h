@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "reckon/estimator/estimator.h"
+#include "reckon/estimator/prior.h"
 #include "reckon/estimator/setup.h"
 #include "reckon/harness/child_process.h"
 
@@ -52,6 +54,7 @@ class ProcessEstimator final : public estimator::Estimator {
   [[noreturn]] void Fail(std::string_view question, std::string_view what);
 
   ProcessOptions options_;
+  std::size_t sensors_;
   std::string unsent_hello_;  // goes out with the first `start`
   std::unique_ptr<ChildProcess> child_;
   std::string failure_;  // why the program is gone; empty while it runs

@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 
+#include "reckon/estimator/prior.h"
 #include "reckon/estimator/setup.h"
 #include "reckon/models/measurement.h"
 
