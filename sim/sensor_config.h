@@ -37,7 +37,7 @@ enum class ImuMode { kIncrement, kPoint };
 /// A synthesised IMU. `grade` has already filled the triads when this is read; what the scenario
 /// writes beside it wins.
 struct ImuConfig {
-  Timing timing;
+  Timing timing = {};
   std::string grade = "perfect";
   ImuMode mode = ImuMode::kIncrement;
   TriadErrors gyro = {}, accel = {};
