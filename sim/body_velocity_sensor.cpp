@@ -25,7 +25,7 @@ void BodyVelocitySensor::Observe(const MotionWindow& motion,
     if (sigma_[i] > 0.0) sample.v_WS_S[i] += sigma_[i] * noise_draws_.Normal(i, clock_.index());
   }
   sample.covariance = sigma_.cwiseAbs2().asDiagonal();
-  out.push_back({id_, motion.t_ns, motion.t_ns + clock_.latency_ns(), sample});
+  out.push_back({id_, clock_.Valid(motion.t_ns), clock_.Arrival(motion.t_ns), sample});
   clock_.Advance();
 }
 

@@ -55,7 +55,7 @@ void Encoders::Observe(const MotionWindow& motion, std::vector<models::Measureme
     sample.rate_rad_s = (sample.angle_rad - begin_) / models::Seconds(window_ns_);
     sample.interval_ns = window_ns_;
     if (window_ns_ == clock_.period_ns()) begin_ = sample.angle_rad;
-    out.push_back({id_, end_ns, end_ns + clock_.latency_ns(), sample});
+    out.push_back({id_, clock_.Valid(end_ns), clock_.Arrival(end_ns), sample});
     clock_.Advance();
   } else if (motion.t_ns == end_ns - window_ns_) {
     begin_ = Read(motion);

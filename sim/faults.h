@@ -14,9 +14,9 @@ namespace reckon::sim {
 
 /// The faults of one sensor: what a schedule does to its stream of messages.
 ///
-/// A fault acts on samples whose true time of validity lies in [at_s, at_s + for_s). Faults that
-/// overlap act in the order of the schedule. Draws come from the stream "fault.<place in the
-/// schedule>.<sensor>". Does not allocate after construction.
+/// A fault acts on samples whose time of validity, before any jitter, lies in [at_s, at_s + for_s).
+/// Faults that overlap act in the order of the schedule. Draws come from the stream "fault.<place
+/// in the schedule>.<sensor>". Does not allocate after construction.
 class FaultInjector {
  public:
   /// Takes the entries of `schedule` that name `sensor`. Throws std::invalid_argument for a start,

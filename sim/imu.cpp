@@ -108,7 +108,7 @@ void Imu::Publish(const Inertial& truth, std::vector<models::Measurement>& out) 
   sample.gyro_saturated = gyro.saturated;
   sample.accel_saturated = accel.saturated;
   const models::TimeNs t_ns = clock_.next_ns();
-  out.push_back({id_, t_ns, t_ns + clock_.latency_ns(), sample});
+  out.push_back({id_, clock_.Valid(t_ns), clock_.Arrival(t_ns), sample});
   clock_.Advance();
 }
 

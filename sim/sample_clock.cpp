@@ -49,7 +49,11 @@ SampleClock::SampleClock(std::string_view sensor, const Timing& timing,
   if (timing.latency_s > kLongestLatencyS) {
     RefuseField(sensor, "latency_s", timing.latency_s, "at most 86400");
   }
+  if (!(std::abs(timing.stamp_error_s) <= kLongestLatencyS)) {
+    RefuseField(sensor, "stamp_error_s", timing.stamp_error_s, "within ±86400");
+  }
   latency_ns_ = std::llround(timing.latency_s * 1e9);
+  stamp_error_ns_ = std::llround(timing.stamp_error_s * 1e9);
 }
 
 }  // namespace reckon::sim

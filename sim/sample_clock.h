@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string_view>
 
@@ -25,7 +26,12 @@ class SampleClock {
 
   models::TimeNs step_ns() const { return step_ns_; }
   models::TimeNs period_ns() const { return period_ns_; }
-  models::TimeNs latency_ns() const { return latency_ns_; }
+
+  /// What a sample of instant `t_ns` claims as its time of validity, and when it arrives.
+  models::TimeNs Valid(models::TimeNs t_ns) const { return t_ns + stamp_error_ns_; }
+  models::TimeNs Arrival(models::TimeNs t_ns) const {
+    return std::max(t_ns, Valid(t_ns)) + latency_ns_;
+  }
 
   bool IsSample(models::TimeNs t_ns) const { return t_ns == next_ns_; }
 
@@ -40,7 +46,8 @@ class SampleClock {
   }
 
  private:
-  models::TimeNs step_ns_, period_ns_, latency_ns_, next_ns_;
+  models::TimeNs step_ns_, period_ns_, next_ns_;
+  models::TimeNs latency_ns_ = 0, stamp_error_ns_ = 0;
   std::uint64_t index_ = 0;
 };
 

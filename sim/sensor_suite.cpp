@@ -16,7 +16,7 @@ namespace {
 
 models::TimeNs StepNs(double physics_step_s) {
   const double ns = physics_step_s * 1e9;
-  if (!(ns >= 1.0) || ns > 1e9 || std::abs(ns - std::round(ns)) > 1e-6 * ns) {
+  if (!(ns >= 1.0) || ns > 1e9 || std::abs(ns - std::round(ns)) > 1e-5) {
     std::ostringstream text;
     text << "the physics step is " << physics_step_s
          << " s, expected a whole number of nanoseconds, at most 1 s";
