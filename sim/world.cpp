@@ -20,6 +20,7 @@ namespace {
 constexpr double kMaxTiltDeg = 75.0;
 constexpr double kLongestSettle = 10.0;  // s beyond settle_s
 constexpr double kStillSpeed = 1e-6;     // m/s and rad/s: the robot is at rest,
+constexpr double kSlidAway = 1.0;        // m from the origin: it will not come to rest
 constexpr double kStillTime = 0.1;       // s, when it has been as still for so long
 
 const WorldConfig& Checked(const WorldConfig& config) {
@@ -123,15 +124,15 @@ class World::Impl {
   void Settle() {
     steer_.SetBrake(true);
     const auto steps = [&](double s) { return std::llround(s / config_.physics_step_s); };
-    for (auto i = steps(config_.settle_s); i > 0; --i) Step();
+    const auto least = steps(config_.settle_s), most = least + steps(kLongestSettle);
     long long still = 0;  // steps in a row: a swing is still for an instant
-    for (auto left = steps(kLongestSettle); still < steps(kStillTime) && left > 0; --left) {
+    for (long long i = 0; i < least || still < steps(kStillTime); ++i) {
       Step();
       still = Still() ? still + 1 : 0;
-    }
-    if (still < steps(kStillTime)) {
-      throw std::invalid_argument(
-          "world: the robot does not come to rest on this terrain (too steep for its friction?)");
+      if (i > most || next_.X_WB.p.head<2>().norm() > kSlidAway) {
+        throw std::invalid_argument(
+            "world: the robot does not come to rest on this terrain (too steep for its friction?)");
+      }
     }
     steer_.SetBrake(false);
     Step();  // once for the look-ahead, once for the pose before t = 0
@@ -222,5 +223,7 @@ World& World::operator=(World&&) noexcept = default;
 void World::Advance() { impl_->Advance(); }
 const MotionWindow& World::motion() const { return impl_->motion(); }
 ground_truth::Truth World::TruthNow() const { return impl_->TruthNow(); }
+
+std::string World::PhysicsVersion() { return std::string("MuJoCo ") + mj_versionString(); }
 
 }  // namespace reckon::sim
