@@ -18,7 +18,13 @@ option(RECKON_SANITIZE "Address and undefined-behaviour sanitizers" OFF)
 # -ffp-contract=off: a fused multiply-add in the control law would change the run's bytes.
 add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Werror
                     -ffp-contract=off)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION MATCHES "^12\\.")
+  add_compile_options(-Wno-restrict)  # a false alarm of GCC 12 at `"text" + std::string`
+endif()
 if(RECKON_SANITIZE)
-  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  # The sanitizers' own code makes GCC see uninitialised variables in Eigen.
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+                      -Wno-maybe-uninitialized)
+  add_compile_definitions(_GLIBCXX_ASSERTIONS)
   add_link_options(-fsanitize=address,undefined)
 endif()

@@ -1,0 +1,5 @@
+// error: reckon/sim/world_config.h: No such file
+#include "reckon/ground_truth/truth.h"
+#ifdef MUST_NOT_COMPILE
+#include "reckon/sim/world_config.h"
+#endif

@@ -1,0 +1,5 @@
+// error: reckon/estimator/estimate.h: No such file
+#include "reckon/sim/world.h"
+#ifdef MUST_NOT_COMPILE
+#include "reckon/estimator/estimate.h"
+#endif

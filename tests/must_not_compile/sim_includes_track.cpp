@@ -1,0 +1,5 @@
+// error: reckon/ground_truth/track.h: No such file
+#include "reckon/ground_truth/truth.h"
+#ifdef MUST_NOT_COMPILE
+#include "reckon/ground_truth/track.h"
+#endif
