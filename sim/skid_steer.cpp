@@ -150,9 +150,12 @@ void SkidSteer::ReadWheels(const mjData& data) {
 
 void SkidSteer::Apply(const DriveCommand& command, const Terrain& terrain, mjData& data) {
   ReadWheels(data);
-  if (kerbs_) ReadKerbContacts(data);
-  const models::EncoderVector torque = drive_.Update(command, angle_, rate_, dt_s_);
   const models::Pose X_WB = BasePose(data);
+  if (kerbs_) {
+    ReadKerbContacts(data);
+    PlaceKerbs(terrain, X_WB.p.x(), data);
+  }
+  const models::EncoderVector torque = drive_.Update(command, angle_, rate_, dt_s_);
   const Eigen::Vector3d v_WB = ConstVec3(data.qvel + twist_address_);
   const Eigen::Vector3d w_WB = X_WB.R * ConstVec3(data.qvel + twist_address_ + 3);
   Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();  // on B, in W

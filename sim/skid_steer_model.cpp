@@ -16,6 +16,8 @@ namespace {
 constexpr double kSolref[] = {0.053, 0.25};
 constexpr double kSolimp[] = {0.9, 0.95, 0.002, 0.5, 2.0};
 
+constexpr double kBuried = -100.0;  // m: where a box waits that is no kerb
+
 [[noreturn]] void Refuse(const std::string& source, const std::string& what) {
   throw std::invalid_argument(source + ": " + what);
 }
@@ -65,9 +67,11 @@ void ApplyActual(const ActualConfig& actual, mjsBody* base) {
   for (int i = 0; i < 3; ++i) base->ipos[i] += actual.com_offset_m(i);
 }
 
-void SetContact(mjsGeom* geom) {
+/// Wheels touch the ground, and nothing else touches anything.
+void SetContact(mjsGeom* geom, bool wheel) {
   geom->condim = 1;
-  geom->contype = geom->conaffinity = 1;
+  geom->contype = wheel ? 1 : 2;
+  geom->conaffinity = wheel ? 2 : 1;
   for (int i = 0; i < 2; ++i) geom->solref[i] = kSolref[i];
   for (int i = 0; i < 5; ++i) geom->solimp[i] = kSolimp[i];
 }
@@ -77,16 +81,18 @@ void AddKerbs(mjsBody* world, const Terrain& terrain) {
   plane->type = mjGEOM_PLANE;
   plane->size[0] = plane->size[1] = terrain.config().half_size_m;
   plane->size[2] = 1.0;
-  SetContact(plane);
-  for (const double x : terrain.KerbCentres()) {
-    mjsGeom* box = mjs_addGeom(world, nullptr);
+  SetContact(plane, false);
+  for (int i = 0; i < 2; ++i) {
+    mjsBody* kerb = mjs_addBody(world, nullptr);
+    kerb->mocap = 1;
+    mjsGeom* box = mjs_addGeom(kerb, nullptr);
     box->type = mjGEOM_BOX;
+    box->mass = 0.0;
     // Sunk into the plane, so that no wheel finds a lower edge.
     box->size[0] = terrain.config().kerb_width_m / 2;
     box->size[1] = terrain.config().half_size_m + 2.0;
     box->size[2] = terrain.config().kerb_height_m;
-    box->pos[0] = x;
-    SetContact(box);
+    SetContact(box, false);
   }
 }
 
@@ -104,7 +110,7 @@ void PrepareWheel(mjSpec* spec, const RobotConfig& robot, const WorldConfig& con
   sphere->type = mjGEOM_SPHERE;
   sphere->size[0] = robot.skid_steer.wheel_radius_m * radius_scale;
   sphere->mass = 0.0;
-  SetContact(sphere);
+  SetContact(sphere, true);
 }
 
 void SetOptions(mjSpec* spec, const WorldConfig& config) {
@@ -116,7 +122,7 @@ void SetOptions(mjSpec* spec, const WorldConfig& config) {
   spec->option.disableflags |= mjDSBL_EQUALITY | mjDSBL_FRICTIONLOSS | mjDSBL_LIMIT |
                                mjDSBL_SPRING | mjDSBL_DAMPER | mjDSBL_ACTUATION | mjDSBL_SENSOR |
                                mjDSBL_EULERDAMP | mjDSBL_AUTORESET;
-  // A few dozen sphere-box pairs are filtered faster one by one than through a tree.
+  // The few pairs of spheres and boxes are filtered faster one by one than through a tree.
   spec->option.disableflags |= config.terrain.kind == TerrainKind::kKerbs
                                    ? mjDSBL_MIDPHASE | mjDSBL_ISLAND
                                    : mjDSBL_CONSTRAINT | mjDSBL_CONTACT;
@@ -132,6 +138,14 @@ void InstallMujocoLogHandler() {
 }
 
 std::string WheelContactGeom(const std::string& joint) { return joint + "/contact"; }
+
+void PlaceKerbs(const Terrain& terrain, double robot_x_m, mjData& data) {
+  const auto kerbs = terrain.KerbsAround(robot_x_m);
+  for (int i = 0; i < 2; ++i) {
+    data.mocap_pos[3 * i] = kerbs[i].value_or(0.0);
+    data.mocap_pos[3 * i + 2] = kerbs[i] ? 0.0 : kBuried;
+  }
+}
 
 ModelPtr BuildSkidSteerModel(const RobotConfig& robot, const WorldConfig& config,
                              const Terrain& terrain) {

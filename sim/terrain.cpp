@@ -93,13 +93,14 @@ bool Terrain::Contains(double x, double y) const {
   return std::abs(x) <= config_.half_size_m && std::abs(y) <= config_.half_size_m;
 }
 
-std::vector<double> Terrain::KerbCentres() const {
-  std::vector<double> centres;
-  for (double x = config_.kerb_spacing_m; x <= config_.half_size_m; x += config_.kerb_spacing_m) {
-    centres.push_back(x);
-    centres.push_back(-x);
+std::array<std::optional<double>, 2> Terrain::KerbsAround(double x) const {
+  std::array<std::optional<double>, 2> kerbs;
+  const double below = std::floor(x / config_.kerb_spacing_m);
+  for (int i = 0; i < 2; ++i) {
+    const double centre = (below + i) * config_.kerb_spacing_m;
+    if (centre != 0.0 && std::abs(centre) <= config_.half_size_m) kerbs[i] = centre;
   }
-  return centres;
+  return kerbs;
 }
 
 }  // namespace reckon::sim

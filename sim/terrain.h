@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -28,8 +29,9 @@ class Terrain {
   /// Whether (x, y) is on the map.
   bool Contains(double x, double y) const;
 
-  /// Centres of the kerbs along x [m], none at the origin, where the robot starts.
-  std::vector<double> KerbCentres() const;
+  /// Centres along x [m] of the kerbs on both sides of `x`; nothing at the origin, where the robot
+  /// starts, and beyond the map. Does not allocate.
+  std::array<std::optional<double>, 2> KerbsAround(double x) const;
 
  private:
   struct Patch {

@@ -10,6 +10,7 @@
 
 #include "reckon/models/urdf_robot.h"
 #include "reckon/sim/driver.h"
+#include "reckon/sim/rotation_vector.h"
 #include "reckon/sim/skid_steer.h"
 #include "reckon/sim/skid_steer_model.h"
 #include "reckon/sim/terrain.h"
@@ -98,8 +99,8 @@ class World::Impl {
     truth.t_ns = motion_.t_ns;
     truth.X_WB = now_.X_WB;
     truth.v_WB = motion_.Velocity(Eigen::Vector3d::Zero());
-    const Eigen::AngleAxisd turn(previous_.X_WB.R.transpose() * next_.X_WB.R);
-    truth.w_WB_B = turn.angle() * turn.axis() / (2.0 * models::Seconds(motion_.step_ns));
+    truth.w_WB_B = RotationLog(previous_.X_WB.R.transpose() * next_.X_WB.R) /
+                   (2.0 * models::Seconds(motion_.step_ns));
     truth.wheel_rate_rad_s = now_.rate_rad_s;
     truth.wheel_slip_m_s = now_.slip_m_s;
     truth.wheel_load_n = now_.load_n;

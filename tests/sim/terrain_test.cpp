@@ -113,11 +113,16 @@ TEST(Terrain, EndsAtItsEdge) {
 }
 
 TEST(Terrain, KerbsLeaveRoomToStart) {
+  using Kerbs = std::array<std::optional<double>, 2>;
   TerrainConfig config;
   config.kind = TerrainKind::kKerbs;
   config.half_size_m = 7.0;
   config.kerb_spacing_m = 3.0;
-  EXPECT_EQ(Terrain(config, {}, 1).KerbCentres(), (std::vector<double>{3, -3, 6, -6}));
+  const Terrain terrain(config, {}, 1);
+  EXPECT_EQ(terrain.KerbsAround(0.5), (Kerbs{std::nullopt, 3.0}));
+  EXPECT_EQ(terrain.KerbsAround(-0.5), (Kerbs{-3.0, std::nullopt}));
+  EXPECT_EQ(terrain.KerbsAround(4.4), (Kerbs{3.0, 6.0}));
+  EXPECT_EQ(terrain.KerbsAround(6.9), (Kerbs{6.0, std::nullopt}));
 }
 
 TEST(Terrain, RefusesWhatCannotBe) {
