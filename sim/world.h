@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <stdexcept>
+#include <string>
 
 #include "reckon/ground_truth/truth.h"
 #include "reckon/sim/motion_window.h"
@@ -36,6 +37,9 @@ class World {
 
   /// What really happens at `motion().t_ns`, with zero IMU biases (the caller knows the sensors).
   ground_truth::Truth TruthNow() const;
+
+  /// Name and version of the physics engine.
+  static std::string PhysicsVersion();
 
  private:
   class Impl;
