@@ -10,9 +10,9 @@ namespace {
 
 models::TimeNs WindowNs(const std::string& sensor, double window_s, const SampleClock& clock) {
   const double steps = window_s * 1e9 / static_cast<double>(clock.step_ns());
-  const double most = static_cast<double>(clock.period_ns() / clock.step_ns());
+  const models::TimeNs most = clock.period_ns() / clock.step_ns();
   const bool whole = steps < 1e9 && std::abs(steps - std::round(steps)) <= 1e-6 * steps;
-  if (!whole || std::round(steps) < 1.0 || std::round(steps) > most) {
+  if (!whole || std::round(steps) < 1.0 || std::llround(steps) > most) {
     std::ostringstream allowed;
     allowed << "a whole number of physics steps of " << models::Seconds(clock.step_ns())
             << " s and at most the sample period of " << models::Seconds(clock.period_ns()) << " s";

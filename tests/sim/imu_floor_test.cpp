@@ -171,8 +171,9 @@ TEST(ImuFloor, SeesAStampThatIsOneSampleLate) {
   EXPECT_GT(Integrate(experiment).position_m, 1e-3);
 }
 
-// A filtered unit turns late, but it integrates: the attitude lags by the delay and doesn't drift.
-TEST(ImuFloor, BandwidthDelaysAndDoesNotDrift) {
+// A filtered unit turns late, but it integrates: the attitude lags by delay times rate and stays
+// there.
+TEST(ImuFloor, BandwidthDelaysTheAttitudeAndDoesNotLetItDrift) {
   Experiment experiment = At(200.0);
   experiment.config.bandwidth_hz = 100.0;
   experiment.config.bandwidth_poles = 1;
