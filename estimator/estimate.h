@@ -13,7 +13,7 @@ namespace reckon::estimator {
 /// Hats are estimates; R, v, p are those of the body B in W; ζ = b̂ − b for both biases.
 enum class ErrorForm : std::uint8_t {
   kRightInvariant,  ///< ξ = Log(X̂ X⁻¹): θ = Log(R̂Rᵀ), ξ_v = J⁻¹(θ)(v̂ − R̂Rᵀ v), likewise p
-  kLeftInvariant,   ///< ξ = Log(X⁻¹ X̂), in body axes
+  kLeftInvariant,  ///< ξ = Log(X⁻¹ X̂), in body axes
   kMultiplicative,  ///< θ = Log(Rᵀ R̂) in body axes; v̂ − v and p̂ − p in W (the classical MEKF)
 };
 

@@ -14,12 +14,12 @@ class Estimator {
  public:
   virtual ~Estimator() = default;
 
-  /// Starts (again) from `prior`. With static initialisation only its yaw, position, biases and their
-  /// covariance are used. May allocate.
+  /// Starts (again) from `prior`. With static initialisation only its yaw, position, biases and
+  /// their covariance are used. May allocate.
   virtual void Start(const Prior& prior) = 0;
 
-  /// Takes one measurement, in order of arrival. Does not allocate. A measurement that can't be used
-  /// is refused with a reason in the report; the state stays finite whatever comes in.
+  /// Takes one measurement, in order of arrival. Does not allocate. A measurement that can't be
+  /// used is refused with a reason in the report; the state stays finite whatever comes in.
   virtual Report Process(const models::Measurement& measurement) = 0;
 
   /// The belief at the stamp of the newest propagation; nothing before initialisation has finished.

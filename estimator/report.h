@@ -25,13 +25,13 @@ enum class Refusal : std::uint8_t {
   kNone,
   kNotFinite,
   kNotInitialised,
-  kMoving,       ///< static initialisation saw motion and starts over
-  kBackwards,    ///< an IMU sample that is not newer than the state
-  kLate,         ///< older than the filter can still use
-  kFromFuture,   ///< valid after it arrived, or too far ahead of the IMU
-  kGap,          ///< its interval is too long to integrate
-  kInvalid,      ///< malformed: wrong size, non-positive interval, indefinite covariance
-  kUnused,       ///< this estimator has no use for this sensor
+  kMoving,      ///< static initialisation saw motion and starts over
+  kBackwards,   ///< an IMU sample that is not newer than the state
+  kLate,        ///< older than the filter can still use
+  kFromFuture,  ///< valid after it arrived, or too far ahead of the IMU
+  kGap,         ///< its interval is too long to integrate
+  kInvalid,     ///< malformed: wrong size, non-positive interval, indefinite covariance
+  kUnused,      ///< this estimator has no use for this sensor
 };
 
 std::string_view Name(Decision decision);
@@ -63,6 +63,7 @@ class [[nodiscard]] Report {
 
   Refusal refusal = Refusal::kNone;  ///< the measurement as a whole, an IMU sample included
   bool propagated = false;           ///< the state's time moved
+  models::TimeNs bridged_ns = 0;     ///< time without IMU samples that was bridged
 
  private:
   std::array<Correction, kMaxCorrections> corrections_;

@@ -24,7 +24,7 @@ struct Noise {
 /// One entry of the flat vector: its stable name (with the unit) and where it lives.
 struct NoiseField {
   std::string_view name;
-  double Noise::* member;
+  double Noise::*member;
 };
 
 /// All entries of `Noise`, in a fixed order.
@@ -67,7 +67,7 @@ struct Setup {
   Initialisation initialisation;
   PriorSigma prior_sigma;
   double gravity_m_s2 = 9.81;
-  bool estimate_gyro_bias = true;   ///< false: the state is kept at the prior's with zero covariance
+  bool estimate_gyro_bias = true;  ///< false: the state is kept at the prior's with zero covariance
   bool estimate_accel_bias = true;  ///< likewise
 };
 

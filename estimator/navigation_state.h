@@ -1,0 +1,57 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "reckon/estimator/estimate.h"
+#include "reckon/estimator/so3.h"
+
+namespace reckon::estimator {
+
+/// The mean that a filter keeps: pose and velocity of the IMU frame I (the IMU's origin, the body's
+/// axes) in W, and the biases in I's axes.
+struct NavigationState {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d v = Eigen::Vector3d::Zero();
+  Eigen::Vector3d p = Eigen::Vector3d::Zero();
+  Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();
+  Eigen::Vector3d accel_bias = Eigen::Vector3d::Zero();
+};
+
+/// An IMU sample in the axes of I, less the biases, held over `dt`: what moves a state, with the
+/// series that every line of a propagation needs.
+struct Increment {
+  Increment(const Eigen::Vector3d& w_rad_s, const Eigen::Vector3d& a_m_s2, double dt_s)
+      : w(w_rad_s),
+        a(a_m_s2),
+        dt(dt_s),
+        phi(w * dt),
+        G0(Gamma(0, phi)),
+        G1(Gamma(1, phi)),
+        G2(Gamma(2, phi)) {}
+
+  Eigen::Vector3d w, a;
+  double dt;
+  Eigen::Vector3d phi;
+  Eigen::Matrix3d G0, G1, G2;
+};
+
+/// The state after `u` [Hartley20, strapdown integration with the sample held]:
+/// R⁺ = R Γ0,  v⁺ = v + R Γ1 a Δt + g Δt,  p⁺ = p + v Δt + R Γ2 a Δt² + ½ g Δt².
+inline NavigationState Propagated(const NavigationState& x, const Increment& u,
+                                  const Eigen::Vector3d& g) {
+  NavigationState next = x;
+  next.R = x.R * u.G0;
+  next.v = x.v + x.R * (u.G1 * u.a) * u.dt + g * u.dt;
+  next.p = x.p + x.v * u.dt + x.R * (u.G2 * u.a) * (u.dt * u.dt) + 0.5 * g * (u.dt * u.dt);
+  return next;
+}
+
+/// Variances of the white noise and of the bias walks, per second, as filters use them.
+struct ProcessNoise {
+  double gyro = 0.0;        ///< (rad/s)²/Hz
+  double accel = 0.0;       ///< (m/s²)²/Hz
+  double gyro_walk = 0.0;   ///< (rad/s²)²/Hz
+  double accel_walk = 0.0;  ///< (m/s³)²/Hz
+};
+
+}  // namespace reckon::estimator

@@ -1,0 +1,34 @@
+#include "reckon/estimator/registry.h"
+
+#include <array>
+
+#include "reckon/estimator/imu_filter.h"
+#include "reckon/estimator/wheel_odometry.h"
+
+namespace reckon::estimator {
+namespace {
+
+template <class T>
+std::unique_ptr<Estimator> Make(const Setup& setup) {
+  return std::make_unique<T>(setup);
+}
+
+constexpr std::array<RegistryEntry, 3> kEntries{{
+    {"inekf", "Right-invariant EKF with IMU biases", Make<ImuFilter<RightInvariantEkf>>},
+    {"mekf", "Multiplicative EKF, the classical baseline: same inputs, noise and gates",
+     Make<ImuFilter<MultiplicativeEkf>>},
+    {"odometry", "Planar wheel odometry without covariance", Make<WheelOdometry>},
+}};
+
+}  // namespace
+
+std::span<const RegistryEntry> Registry() { return kEntries; }
+
+const RegistryEntry* FindEstimator(std::string_view name) {
+  for (const RegistryEntry& entry : kEntries) {
+    if (entry.name == name) return &entry;
+  }
+  return nullptr;
+}
+
+}  // namespace reckon::estimator

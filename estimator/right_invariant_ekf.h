@@ -1,0 +1,56 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "reckon/estimator/estimate.h"
+#include "reckon/estimator/linearisation.h"
+#include "reckon/estimator/navigation_state.h"
+
+namespace reckon::estimator {
+
+/// The error form of the right-invariant EKF [Hartley20]: η = X̂ X⁻¹ = exp(ξ), ζ = b̂ − b.
+///
+/// A covariance is never moved to another state: after a correction it stays in the frame of the
+/// prior estimate. Nothing here allocates.
+class RightInvariantEkf {
+ public:
+  static constexpr ErrorForm kForm = ErrorForm::kRightInvariant;
+
+  void Start(const NavigationState& x, const ErrorCovariance& P_right_invariant) {
+    x_ = x;
+    P_ = P_right_invariant;
+  }
+
+  /// Propagates mean and covariance over one held sample, with the exact Φ of the error
+  ///
+  ///            θ        v     p     b_g    b_a
+  ///     θ      I                    θ_g
+  ///     v   [g]×Δt      I           v_g    θ_g
+  ///     p  ½[g]×Δt²    IΔt    I     p_g    p_a
+  ///
+  /// θ_g = −R Γ1 Δt, v_g = [v⁺]× θ_g − R ∂(Γ1 a)/∂φ Δt², p_g = [p⁺]× θ_g − R ∂(Γ2 a)/∂φ Δt³,
+  /// p_a = −R Γ2 Δt², and the exact noise of a sample that is held: it acts as a bias that lives
+  /// one step, J (Q/Δt) Jᵀ, beside the walk.
+  void Propagate(const Increment& u, const Eigen::Vector3d& g, const ProcessNoise& noise);
+
+  /// The blocks of a measurement in this form's coordinates: as they are.
+  static Linearisation Convert(const Linearisation& m, const NavigationState& /*x*/) { return m; }
+
+  /// X⁺ = exp(ξ) X̂ and b⁺ = b̂ + ζ for the increment K z.
+  void Retract(const ErrorVector& increment);
+
+  const NavigationState& x() const { return x_; }
+  const ErrorCovariance& P() const { return P_; }
+  ErrorCovariance& P() { return P_; }
+
+  /// The covariance of the body's error: B's origin lies at `r_IB` in I, and v_B = v + R(ω × r_IB)
+  /// with a gyroscope sample of variance `gyro_variance`.
+  ErrorCovariance BodyCovariance(const Eigen::Vector3d& r_IB, const Eigen::Vector3d& w,
+                                 double gyro_variance) const;
+
+ private:
+  NavigationState x_;
+  ErrorCovariance P_ = ErrorCovariance::Zero();
+};
+
+}  // namespace reckon::estimator

@@ -1,0 +1,60 @@
+#include "reckon/estimator/sample_checks.h"
+
+#include <Eigen/Cholesky>
+
+namespace reckon::estimator {
+namespace {
+
+// No hardware reports more: what lies beyond is a broken message, not an outlier for the gate.
+constexpr double kLargestRate = 1e4;      ///< rad/s, IMU and encoders
+constexpr double kLargestForce = 1e5;     ///< m/s²
+constexpr double kLargestVelocity = 1e5;  ///< m/s
+constexpr models::TimeNs kLongestInterval = models::kNsPerSecond;
+
+template <class Vector>
+Refusal Bounded(const Vector& x, double limit) {
+  if (!x.allFinite()) return Refusal::kNotFinite;
+  return x.size() > 0 && x.cwiseAbs().maxCoeff() > limit ? Refusal::kInvalid : Refusal::kNone;
+}
+
+Refusal WorseOf(Refusal a, Refusal b) { return a != Refusal::kNone ? a : b; }
+
+Refusal Interval(models::TimeNs interval_ns) {
+  if (interval_ns <= 0) return Refusal::kInvalid;
+  return interval_ns > kLongestInterval ? Refusal::kGap : Refusal::kNone;
+}
+
+Refusal Check(const models::ImuSample& sample) {
+  const Refusal numbers =
+      WorseOf(Bounded(sample.gyro_rad_s, kLargestRate), Bounded(sample.accel_m_s2, kLargestForce));
+  return WorseOf(numbers, Interval(sample.interval_ns));
+}
+
+Refusal Check(const models::EncoderSample& sample) {
+  if (sample.rate_rad_s.size() == 0 || sample.rate_rad_s.size() != sample.angle_rad.size()) {
+    return Refusal::kInvalid;
+  }
+  if (!sample.angle_rad.allFinite()) return Refusal::kNotFinite;
+  return WorseOf(Bounded(sample.rate_rad_s, kLargestRate), Interval(sample.interval_ns));
+}
+
+Refusal Check(const models::BodyVelocitySample& sample) {
+  if (!sample.covariance.allFinite()) return Refusal::kNotFinite;
+  const Refusal numbers = Bounded(sample.v_WS_S, kLargestVelocity);
+  if (numbers != Refusal::kNone) return numbers;
+  const Eigen::LLT<Eigen::Matrix3d> factor(sample.covariance);
+  const bool symmetric = sample.covariance.isApprox(sample.covariance.transpose(), 1e-9);
+  return factor.info() == Eigen::Success && symmetric ? Refusal::kNone : Refusal::kInvalid;
+}
+
+}  // namespace
+
+Refusal WhatIsWrong(const models::Measurement& measurement, const models::Suite& suite) {
+  if (measurement.sensor >= suite.sensors.size()) return Refusal::kInvalid;
+  const auto kind = static_cast<std::size_t>(suite.sensors[measurement.sensor].kind);
+  if (measurement.sample.index() != kind) return Refusal::kInvalid;
+  if (measurement.valid_ns > measurement.arrival_ns) return Refusal::kFromFuture;
+  return std::visit([](const auto& sample) { return Check(sample); }, measurement.sample);
+}
+
+}  // namespace reckon::estimator

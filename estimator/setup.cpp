@@ -1,0 +1,23 @@
+#include "reckon/estimator/setup.h"
+
+#include <array>
+
+namespace reckon::estimator {
+namespace {
+
+constexpr std::array<NoiseField, 8> kFields{{
+    {"gyro_noise_density_rad_per_s_sqrt_hz", &Noise::gyro_noise_density_rad_per_s_sqrt_hz},
+    {"accel_noise_density_m_per_s2_sqrt_hz", &Noise::accel_noise_density_m_per_s2_sqrt_hz},
+    {"gyro_bias_walk_rad_per_s2_sqrt_hz", &Noise::gyro_bias_walk_rad_per_s2_sqrt_hz},
+    {"accel_bias_walk_m_per_s3_sqrt_hz", &Noise::accel_bias_walk_m_per_s3_sqrt_hz},
+    {"wheel_forward_m_per_s", &Noise::wheel_forward_m_per_s},
+    {"wheel_lateral_m_per_s", &Noise::wheel_lateral_m_per_s},
+    {"wheel_vertical_m_per_s", &Noise::wheel_vertical_m_per_s},
+    {"body_velocity_scale", &Noise::body_velocity_scale},
+}};
+
+}  // namespace
+
+std::span<const NoiseField> NoiseFields() { return kFields; }
+
+}  // namespace reckon::estimator

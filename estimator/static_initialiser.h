@@ -1,0 +1,61 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "reckon/estimator/navigation_state.h"
+#include "reckon/estimator/prior.h"
+#include "reckon/estimator/setup.h"
+
+namespace reckon::estimator {
+
+/// Finds the first state from a resting IMU: tilt from the mean specific force, gyroscope bias from
+/// the mean rate; yaw, position and accelerometer bias come from the prior. With G = −g and ζ_a the
+/// error of the accelerometer bias that the prior gives,
+///     θ × G = R̂ (ζ_a − n):   tilt and accelerometer bias start correlated.
+/// It refuses to run while the robot moves: a sample or a wheel that speaks of motion starts the
+/// averaging over. Does not allocate.
+class StaticInitialiser {
+ public:
+  enum class Progress { kWaiting, kMoving, kDone };
+
+  StaticInitialiser(const Setup& setup, double imu_period_s);
+
+  void Start(const Prior& prior);
+
+  /// One IMU sample in the axes of I, over `dt_s`.
+  Progress Add(const Eigen::Vector3d& w, const Eigen::Vector3d& a, double dt_s);
+
+  /// A wheel rate [rad/s]; one that is not zero starts the averaging over.
+  void AddWheelRate(double rate_rad_s);
+
+  /// The state of I and its right-invariant covariance, once Add has said kDone. `p_BI` is the
+  /// IMU's origin in the body.
+  NavigationState State(const Eigen::Vector3d& p_BI) const;
+  ErrorCovariance Covariance() const;
+
+ private:
+  /// Running mean and sum of squared deviations.
+  struct Average {
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    Eigen::Vector3d squares = Eigen::Vector3d::Zero();
+    void Add(const Eigen::Vector3d& x, int n) {
+      const Eigen::Vector3d d = x - mean;
+      mean += d / n;
+      squares += d.cwiseProduct(x - mean);
+    }
+  };
+
+  bool LooksMoving() const;
+  void Restart();
+  Eigen::Matrix3d Rotation() const;
+
+  Setup setup_;
+  double gyro_sigma_, accel_sigma_;  ///< of one sample, as believed
+  Prior prior_;
+  Average gyro_, accel_;
+  int count_ = 0;
+  double seconds_ = 0.0;
+};
+
+}  // namespace reckon::estimator
