@@ -65,6 +65,8 @@ void Describe(Archive& a, EstimatorConfig& e) {
   const bool is_process = e.type == "process";
   if (is_process) {
     a.Field("command", e.command, "The program and its arguments", {}, Need::kSomewhere);
+    a.Field("working_folder", e.working_folder,
+            "Where it runs, relative to this file's folder, which is the default");
     a.Field("timeout_s", e.timeout_s, "Longest wait for an answer", AboveUpTo(0, 3600));
   }
   if (e.type == "inekf") a.Field("error", e.error, "The error that the filter keeps");

@@ -27,6 +27,10 @@ class Rules {
       : s_(scenario), root_(root), problems_(problems), sensors_(KeysOf(scenario.sensors)) {}
 
   void Run(const models::UrdfRobot& urdf) const {
+    // Nothing divides a step that stamps can't hold.
+    const bool step_is_good = IsWhole(s_.world.physics_step_s * 1e9);
+    Require(step_is_good, "/world/physics_step_s", "a whole number of nanoseconds");
+    if (!step_is_good) return;
     CheckWorld();
     CheckMotion();
     CheckSensors(urdf);
@@ -64,12 +68,16 @@ class Rules {
     Complain(path, "there is no " + what + " '" + Shown(name) + "'" + DidYouMean(name, names));
   }
 
+  static bool IsWhole(double number) {
+    constexpr double kRoundOff = 1e-9;
+    return std::abs(number - std::round(number)) <= kRoundOff * std::abs(number);
+  }
+
   /// A rate must be an integer fraction of the physics rate.
   void CheckRate(const std::string& path, double rate_hz) const {
     const double steps = 1.0 / (rate_hz * s_.world.physics_step_s);
     const double whole = std::max(1.0, std::round(steps));
-    constexpr double kRoundOff = 1e-9;
-    if (std::abs(steps - whole) <= kRoundOff * whole) return;
+    if (steps > 0.5 && IsWhole(steps)) return;
     const double nearest = 1.0 / (whole * s_.world.physics_step_s);
     Complain(path, "expected an integer fraction of the physics rate of " +
                        NumberText(1.0 / s_.world.physics_step_s) + " Hz, found " +
@@ -77,9 +85,6 @@ class Rules {
   }
 
   void CheckWorld() const {
-    const double step_ns = s_.world.physics_step_s * 1e9;
-    Require(std::abs(step_ns - std::round(step_ns)) < 1e-6, "/world/physics_step_s",
-            "a whole number of nanoseconds");
     const sim::TerrainConfig& t = s_.world.terrain;
     Require(t.kind != sim::TerrainKind::kRough || t.shortest_wave_m < t.longest_wave_m,
             "/world/terrain/longest_wave_m", "more than shortest_wave_m");
@@ -119,7 +124,9 @@ class Rules {
       const auto rate = [](const auto& errors) { return errors.timing.rate_hz; };
       CheckRate(path + "/rate_hz", std::visit(rate, sensor.errors));
       if (const auto* encoders = std::get_if<sim::EncoderConfig>(&sensor.errors)) {
-        CheckRate(path + "/rate_window_s", 1.0 / encoders->rate_window_s);
+        const double steps = encoders->rate_window_s / s_.world.physics_step_s;
+        Require(steps > 0.5 && IsWhole(steps), path + "/rate_window_s",
+                "a whole number of physics steps");
       }
     }
     const std::string& wheels = s_.nominal.wheels.encoders;

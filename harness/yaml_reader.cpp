@@ -1,6 +1,7 @@
 #include "reckon/harness/yaml_reader.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <system_error>
 
@@ -98,20 +99,26 @@ Location WhereOf(const YamlNode& root, const char* key) {
 }
 
 /// Fills in what depends on other keys.
-void Complete(const YamlNode& root, Scenario& scenario) {
+void Complete(const YamlNode& root, const fs::path& folder, Scenario& scenario) {
   if (root.Find("estimators") == nullptr) {
     scenario.estimators["inekf"].noise = scenario.nominal.noise;
   }
-  const YamlNode* rate = root.At("/record/truth_rate_hz");
-  if (rate == nullptr && scenario.world.physics_step_s != sim::WorldConfig{}.physics_step_s) {
-    scenario.record.truth_rate_hz = 1.0 / scenario.world.physics_step_s;
+  if (root.At("/record/truth_rate_hz") == nullptr) {  // the default need not divide another step
+    const double rate = 1.0 / scenario.world.physics_step_s;
+    const double steps = std::max(1.0, std::round(rate / scenario.record.truth_rate_hz));
+    scenario.record.truth_rate_hz = rate / steps;
   }
   for (auto& [name, estimator] : scenario.estimators) {
     if (estimator.noise_source == NoiseSource::kMatched) estimator.noise = MatchedNoise(scenario);
+    if (estimator.type == "process") {
+      const fs::path from = fs::current_path() / folder / estimator.working_folder;
+      estimator.working_folder = from.lexically_normal().string();
+    }
   }
 }
 
-Scenario Resolve(YamlNode root, int layer, const std::vector<std::string>& overrides) {
+Scenario Resolve(YamlNode root, const fs::path& folder, int layer,
+                 const std::vector<std::string>& overrides) {
   for (const std::string& text : overrides) ApplyOverride(text, ++layer, root);
   const LoadedRobotFile robot = LoadRobotFile(RobotName(root), WhereOf(root, "robot"));
   LayOverRobot(robot, root);
@@ -123,7 +130,7 @@ Scenario Resolve(YamlNode root, int layer, const std::vector<std::string>& overr
     problems.Add(include->at, "'/include': only a file can include files");
   }
   problems.ThrowIfAny();
-  Complete(root, scenario);
+  Complete(root, folder, scenario);
   const fs::path urdf_path = robot.folder / robot.values.urdf;
   try {
     CheckScenario(scenario, models::UrdfRobot::FromFile(urdf_path.string()), root, problems);
@@ -139,7 +146,7 @@ Scenario ReadTree(YamlNode root, const fs::path& path, const std::vector<std::st
   std::vector<fs::path> open{fs::weakly_canonical(path, error)};
   int layer = 0;  // of the robot's own sections
   root = WithIncludes(std::move(root), path.parent_path(), open, layer);
-  return Resolve(std::move(root), layer, overrides);
+  return Resolve(std::move(root), path.parent_path(), layer, overrides);
 }
 
 }  // namespace

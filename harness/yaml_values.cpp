@@ -98,8 +98,11 @@ bool IsName(const std::string& name) {
 }
 
 std::string NumberText(double value) {
-  std::array<char, 32> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+  std::array<char, 64> buffer{};
+  const double size = std::abs(value);
+  const bool plain = size == 0.0 || (size >= 1e-3 && size < 1e9);
+  const auto format = plain ? std::chars_format::fixed : std::chars_format::scientific;
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, format).ptr;
   return {buffer.data(), end};
 }
 
