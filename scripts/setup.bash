@@ -67,24 +67,24 @@ configure() {  # PRESET
 # Ninja's output in, a progress line out: at most ten lines, or one that moves on a terminal. What
 # compilers say passes through.
 progress() {  # PRESET
-  local line tenth shown=-1 moving=''
+  local line tenth shown=-1 newline=''
   while IFS= read -r line; do
     if [[ $line =~ ^\[([0-9]+)/([0-9]+)\] ]]; then
       ((BASH_REMATCH[2] >= 5)) || continue
       tenth=$((10 * BASH_REMATCH[1] / BASH_REMATCH[2]))
       if [[ -t 2 ]]; then
         printf '\r\033[Kreckon: building %s %s' "$1" "${BASH_REMATCH[0]}" >&2
-        moving='\n'
+        newline=$'\n'
       elif ((tenth > shown)); then
         shown=$tenth
         say "building $1 ${BASH_REMATCH[0]}"
       fi
     elif [[ $line != '-- '* && $line != 'ninja: no work to do.' && $line != 'ninja: Entering'* ]]; then
-      printf "$moving%s\n" "$line" >&2
-      moving=''
+      printf '%s%s\n' "$newline" "$line" >&2
+      newline=''
     fi
   done
-  printf "$moving" >&2
+  printf '%s' "$newline" >&2
 }
 
 build() {  # PRESET TARGET...
