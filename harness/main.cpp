@@ -1,1 +1,3 @@
-int main() { return 0; }
+#include "reckon/harness/cli.h"
+
+int main(int argc, char** argv) { return reckon::harness::RunCommandLine(argc, argv); }

@@ -1,0 +1,152 @@
+#include "reckon/harness/cli.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+
+#include "reckon/build_info.h"
+#include "reckon/harness/list_command.h"
+#include "reckon/harness/nearest.h"
+#include "reckon/harness/results_folder.h"
+#include "reckon/harness/run_command.h"
+#include "reckon/harness/schema.h"
+#include "reckon/harness/yaml_reader.h"
+
+namespace reckon::harness {
+namespace {
+
+struct CheckArguments {
+  std::vector<std::string> scenarios;
+  std::vector<std::string> overrides;
+  bool schema = false;
+  bool quiet = false;
+};
+
+struct ListArguments {
+  std::string what;
+  bool json = false;
+};
+
+void AddRun(CLI::App& app, RunArguments& run) {
+  CLI::App* command = app.add_subcommand("run", "Run scenarios, score them, write their results");
+  command->add_option("scenario", run.scenarios, "Scenario files")->required();
+  command->add_option("--set", run.overrides, "Override a key: a.b=c (repeatable)")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command->add_option("--seed", run.seed, "Another seed");
+  command->add_option("--estimator", run.estimators, "Run only this estimator (repeatable)")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  command->add_option("--out", run.out, "Folder of the results")->capture_default_str();
+  command->add_option("--jobs", run.jobs, "Scenarios that run at once")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command->add_flag("--json", run.json, "Machine-readable results on stdout");
+  command->add_flag("--quiet", run.quiet, "No progress");
+  command->add_flag("--force", run.force, "Replace a folder that is not a result of this scenario");
+  command->add_flag("--resume", run.resume, "Keep finished results of the same resolved scenario");
+}
+
+void AddScore(CLI::App& app, ScoreArguments& score) {
+  CLI::App* command = app.add_subcommand("score", "Score recordings again, without simulation");
+  command->add_option("results", score.results, "Result folders")->required();
+  command->add_option("--set", score.overrides, "Override a key below score. or expect.")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command->add_flag("--json", score.json, "Machine-readable results on stdout");
+  command->add_flag("--quiet", score.quiet, "No progress");
+}
+
+void AddCheck(CLI::App& app, CheckArguments& check) {
+  CLI::App* command =
+      app.add_subcommand("check", "Validate scenarios and print them with every default");
+  command->add_option("scenario", check.scenarios, "Scenario files");
+  command->add_option("--set", check.overrides, "Override a key: a.b=c (repeatable)")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command->add_flag("--schema", check.schema, "Print the JSON Schema of scenario files");
+  command->add_flag("--quiet", check.quiet, "Only say what is wrong");
+}
+
+void AddList(CLI::App& app, ListArguments& list) {
+  CLI::App* command = app.add_subcommand(
+      "list", "List robots, estimators, sensors, grades, terrains, motions, metrics, scenarios");
+  command->add_option("what", list.what, "Only this kind");
+  command->add_flag("--json", list.json, "Machine-readable");
+}
+
+int Check(const CheckArguments& arguments) {
+  if (arguments.schema) {
+    fmt::print("{}", JsonSchema());
+    return kExitHolds;
+  }
+  if (arguments.scenarios.empty()) {
+    fmt::print(stderr, "reckon check: name at least one scenario file, or --schema\n");
+    return kExitBadInput;
+  }
+  int code = kExitHolds;
+  for (const std::string& path : arguments.scenarios) {
+    try {
+      const std::string resolved = CheckText(path, arguments.overrides);
+      if (!arguments.quiet) fmt::print("{}", resolved);
+    } catch (const InputError& error) {
+      fmt::print(stderr, "{}\n", error.what());
+      code = kExitBadInput;
+    }
+  }
+  return code;
+}
+
+/// What the parser found wrong, with the nearest subcommand when a name is unknown.
+int ReportParseError(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+  if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+  fmt::print(stderr, "reckon: {}\n", error.what());
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  const bool named = argc > 1 && argv[1][0] != '-';
+  if (named && std::find(names.begin(), names.end(), argv[1]) == names.end()) {
+    if (const auto nearest = Nearest(argv[1], names)) {
+      fmt::print(stderr, "did you mean 'reckon {}'?\n", *nearest);
+    }
+  }
+  fmt::print(stderr, "'reckon --help' lists the commands\n");
+  return kExitBadInput;
+}
+
+}  // namespace
+
+int RunCommandLine(int argc, char** argv) {
+  CLI::App app("Simulation-in-the-loop test harness for proprioceptive robot state estimators",
+               "reckon");
+  app.require_subcommand(1);
+  app.set_version_flag("--version", std::string("reckon " RECKON_VERSION));
+  RunArguments run;
+  ScoreArguments score;
+  CheckArguments check;
+  ListArguments list;
+  AddRun(app, run);
+  AddScore(app, score);
+  AddCheck(app, check);
+  AddList(app, list);
+  try {
+    app.parse(argc, argv);
+    if (app.got_subcommand("run")) return RunCommand(run);
+    if (app.got_subcommand("score")) return ScoreCommand(score);
+    if (app.got_subcommand("check")) return Check(check);
+    fmt::print("{}", list.json ? ListJson() : ListText(list.what));
+    return kExitHolds;
+  } catch (const CLI::ParseError& error) {
+    return ReportParseError(app, error, argc, argv);
+  } catch (const InputError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return kExitBadInput;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "reckon: {}\n", error.what());
+    return kExitRunFailed;
+  }
+}
+
+}  // namespace reckon::harness

@@ -1,0 +1,97 @@
+#include "reckon/harness/experiment.h"
+
+#include <cmath>
+#include <limits>
+
+#include "reckon/harness/beliefs.h"
+
+namespace reckon::harness {
+namespace {
+
+/// Truth is kept this long: the oldest stamp that a belief may carry.
+constexpr double kTruthHistoryS = 2.0;
+
+/// Steps between two looks at the clock and the stop flag.
+constexpr std::int64_t kStepsPerCheck = 256;
+
+std::size_t HistorySize(const Scenario& scenario) {
+  return static_cast<std::size_t>(std::ceil(kTruthHistoryS / scenario.world.physics_step_s)) + 1;
+}
+
+void Poison(ground_truth::Truth& truth) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  truth.X_WB.R.setConstant(nan);
+  truth.X_WB.p.setConstant(nan);
+  truth.v_WB.setConstant(nan);
+  truth.w_WB_B.setConstant(nan);
+  truth.gyro_bias_rad_s.setConstant(nan);
+  truth.accel_bias_m_s2.setConstant(nan);
+}
+
+}  // namespace
+
+Experiment::Experiment(const Scenario& scenario, const Robot& robot,
+                       ground_truth::RunRecorder* recorder)
+    : scenario_(scenario),
+      recorder_(recorder),
+      world_(robot.simulated, scenario.world, scenario.seed),
+      sensors_(robot.sensors, scenario.faults, scenario.seed, scenario.world.physics_step_s,
+               scenario.world.gravity_m_s2),
+      truth_(HistorySize(scenario)),
+      bench_(scenario, robot.nominal, recorder) {
+  bench_.set_truth(&truth_);
+  timer_.Lap(costs_.setup_s);
+}
+
+ground_truth::Truth Experiment::TruthNow() const {
+  ground_truth::Truth truth = world_.TruthNow();
+  truth.gyro_bias_rad_s = sensors_.gyro_bias();
+  truth.accel_bias_m_s2 = sensors_.accel_bias();
+  return truth;
+}
+
+void Experiment::Step(bool first, bool poison) {
+  world_.Advance();
+  timer_.Lap(costs_.physics_s);
+  sent_.clear();
+  sensors_.Observe(world_.motion(), sent_);
+  timer_.Lap(costs_.sensors_s);
+  ground_truth::Truth truth = TruthNow();
+  if (first) bench_.Start(DrawPrior(truth, scenario_.initial, scenario_.seed));
+  if (poison) Poison(truth);
+  truth_.Add(truth);
+  if (recorder_ != nullptr) recorder_->Add(truth);
+  timer_.Lap(costs_.recording_s);
+  for (const auto& measurement : sent_) queue_.Send(measurement);
+  while (queue_.HasArrived(truth.t_ns)) bench_.Deliver(queue_.Take());
+  timer_.Lap(costs_.estimators_s);
+}
+
+bool Experiment::Run(const Hooks& hooks) {
+  const auto steps = static_cast<std::int64_t>(
+      std::llround(scenario_.duration_s / scenario_.world.physics_step_s));
+  for (std::int64_t k = 0; k <= steps; ++k) {
+    Step(k == 0, hooks.poison_truth);
+    if (k % kStepsPerCheck != 0) continue;
+    if (hooks.stop != nullptr && *hooks.stop) return false;
+    costs_.simulated_s = models::Seconds(world_.motion().t_ns);
+    const double spent =
+        costs_.physics_s + costs_.sensors_s + costs_.recording_s + costs_.estimators_s;
+    if (hooks.progress && spent > 0.0) {
+      hooks.progress(static_cast<double>(k) / static_cast<double>(steps + 1),
+                     costs_.simulated_s / spent);
+    }
+  }
+  bench_.Finish();
+  timer_.Lap(costs_.estimators_s);
+  costs_.simulated_s = models::Seconds(world_.motion().t_ns);
+  const std::vector<std::string> names = bench_.names();
+  for (std::size_t i = 0; i < names.size(); ++i) costs_.estimators[names[i]] = bench_.cost(i);
+  // The bench records and scores while it delivers: what that took is not the estimators'.
+  costs_.recording_s += bench_.recording_s();
+  costs_.scoring_s += bench_.scoring_s();
+  costs_.estimators_s -= bench_.recording_s() + bench_.scoring_s();
+  return true;
+}
+
+}  // namespace reckon::harness

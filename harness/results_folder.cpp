@@ -1,0 +1,108 @@
+#include "reckon/harness/results_folder.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace reckon::harness {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// `write(2)` to the end, with the reason when it fails: streams hide what a full disk says.
+void WriteBytes(const fs::path& path, std::string_view text) {
+  std::FILE* file = std::fopen(path.c_str(), "wbe");
+  if (file == nullptr) {
+    throw OutputError(fmt::format("can't write {}: {}", path.string(), std::strerror(errno)));
+  }
+  const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  const int write_error = errno;
+  const bool closed = std::fclose(file) == 0;
+  if (!written || !closed) {
+    throw OutputError(fmt::format("can't write {}: {}", path.string(),
+                                  std::strerror(written ? errno : write_error)));
+  }
+}
+
+/// A name beside `final_folder` that no other run uses, on this thread or in another process.
+fs::path PartName(const fs::path& final_folder) {
+  std::string pattern = final_folder.string() + ".part.XXXXXX";
+  if (::mkdtemp(pattern.data()) == nullptr) {
+    throw OutputRefused(fmt::format("can't make a folder beside {}: {}", final_folder.string(),
+                                    std::strerror(errno)));
+  }
+  fs::permissions(pattern, fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec |
+                               fs::perms::others_read | fs::perms::others_exec);
+  return pattern;
+}
+
+}  // namespace
+
+bool IsFinishedResult(const fs::path& folder, const std::string& scenario, std::uint64_t seed) {
+  std::ifstream file(folder / "run.json");
+  if (!file) return false;
+  const auto json = nlohmann::json::parse(file, nullptr, false);
+  if (!json.is_object() || !json.contains("scenario") || !json.contains("seed")) return false;
+  return json["scenario"] == scenario && json["seed"] == seed;
+}
+
+ResultsFolder::ResultsFolder(fs::path final_folder, std::string scenario, std::uint64_t seed,
+                             bool force)
+    : final_(std::move(final_folder)) {
+  std::error_code error;
+  fs::create_directories(final_.parent_path(), error);
+  if (error) {
+    throw OutputRefused(
+        fmt::format("can't make {}: {}", final_.parent_path().string(), error.message()));
+  }
+  const bool occupied = fs::exists(final_) && !fs::is_empty(final_, error);
+  if (occupied && !force && !IsFinishedResult(final_, scenario, seed)) {
+    throw OutputRefused(
+        fmt::format("{} exists and is not a finished result of {} with seed {}; "
+                    "move it away, choose another --out, or use --force",
+                    final_.string(), scenario, seed));
+  }
+  part_ = PartName(final_);
+}
+
+ResultsFolder::~ResultsFolder() {
+  if (published_) return;
+  std::error_code ignored;
+  fs::remove_all(part_, ignored);
+}
+
+void ResultsFolder::Write(std::string_view name, std::string_view text) const {
+  WriteBytes(File(name), text);
+}
+
+void ResultsFolder::Publish() {
+  std::error_code error;
+  const fs::path old = part_.string() + ".old";
+  const bool replaces = fs::exists(final_);
+  if (replaces) fs::rename(final_, old, error);
+  if (!error) fs::rename(part_, final_, error);
+  if (error) {
+    throw OutputError(
+        fmt::format("can't rename {} to {}: {}", part_.string(), final_.string(), error.message()));
+  }
+  published_ = true;
+  if (replaces) fs::remove_all(old, error);
+}
+
+void WriteWholeFile(const fs::path& path, std::string_view text) {
+  const fs::path part = path.string() + fmt::format(".part.{}", ::getpid());
+  WriteBytes(part, text);
+  std::error_code error;
+  fs::rename(part, path, error);
+  if (error) {
+    throw OutputError(
+        fmt::format("can't rename {} to {}: {}", part.string(), path.string(), error.message()));
+  }
+}
+
+}  // namespace reckon::harness

@@ -1,0 +1,218 @@
+#include "reckon/harness/run.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "reckon/build_info.h"
+#include "reckon/ground_truth/consistency.h"
+#include "reckon/ground_truth/recording_reader.h"
+#include "reckon/ground_truth/tum.h"
+#include "reckon/harness/experiment.h"
+#include "reckon/harness/process_estimator.h"
+#include "reckon/harness/replay.h"
+#include "reckon/harness/results_folder.h"
+#include "reckon/harness/run_json.h"
+#include "reckon/harness/yaml_reader.h"
+#include "reckon/harness/yaml_writer.h"
+
+namespace reckon::harness {
+namespace {
+
+namespace fs = std::filesystem;
+using ground_truth::Track;
+using Tracks = std::map<std::string, const Track*>;
+
+constexpr const char* kRecording = "recording.h5";
+constexpr const char* kResolved = "resolved.yaml";
+
+std::vector<std::string> SensorNames(const models::Suite& suite) {
+  std::vector<std::string> names;
+  for (const auto& sensor : suite.sensors) names.push_back(sensor.name);
+  return names;
+}
+
+models::TimeNs PeriodNs(double rate_hz) {
+  return rate_hz > 0.0 ? std::llround(1e9 / rate_hz) : models::TimeNs{0};
+}
+
+ground_truth::RecordingPlan PlanOf(const Scenario& scenario, const Robot& robot,
+                                   const std::string& resolved) {
+  ground_truth::RecordingPlan plan;
+  for (const auto& sensor : robot.nominal.sensors) {
+    plan.sensors.push_back({sensor, {}});
+    if (sensor.kind == models::SensorKind::kEncoders) plan.sensors.back().channels = robot.joints;
+  }
+  for (const auto& [name, config] : scenario.estimators) plan.estimators.push_back(name);
+  plan.wheels = robot.joints;
+  plan.truth = scenario.record.truth;
+  plan.measurements = scenario.record.measurements;
+  plan.estimates = scenario.record.estimates;
+  plan.covariance = scenario.record.covariance;
+  plan.corrections = scenario.record.innovations;
+  plan.truth_period_ns = PeriodNs(scenario.record.truth_rate_hz);
+  plan.estimate_period_ns = PeriodNs(scenario.record.estimate_rate_hz);
+  plan.attributes = {{"program", "reckon " RECKON_VERSION}, {"resolved_scenario", resolved}};
+  return plan;
+}
+
+/// Scores every track and judges the expectations.
+void ScoreTracks(const Scenario& scenario, const Robot& robot, const Tracks& tracks,
+                 RunResult& result) {
+  const std::vector<std::string> sensors = SensorNames(robot.nominal);
+  result.scores.clear();
+  for (const auto& [name, track] : tracks) {
+    result.scores.push_back({name, ground_truth::Score(*track, sensors, scenario.score)});
+  }
+  Findings findings;
+  findings.metric = [&result](const std::string& estimator,
+                              const std::string& metric) -> std::optional<double> {
+    for (const auto& score : result.scores) {
+      if (score.name == estimator) return score.metrics.Find(metric);
+    }
+    return std::nullopt;
+  };
+  const models::TimeNs start_ns = std::llround(1e9 * scenario.score.start_s);
+  findings.inconsistencies = [&](const std::string& estimator, double false_alarm) {
+    std::vector<std::string> complaints;
+    const Track scored = tracks.at(estimator)->From(start_ns);
+    for (const auto& test : ground_truth::CheckConsistency(scored, sensors, false_alarm)) {
+      if (!test.holds) complaints.push_back(test.message);
+    }
+    return complaints;
+  };
+  result.verdicts = Judge(scenario.expect, findings);
+}
+
+/// truth.tum at the stamps of the first estimator that has a belief, and one file an estimator.
+void WriteTrajectories(const Tracks& tracks, const ResultsFolder& folder) {
+  bool truth_written = false;
+  for (const auto& [name, track] : tracks) {
+    if (track->samples().empty()) continue;
+    ground_truth::TumWriter estimate(folder.File(name + ".tum"));
+    for (const auto& sample : track->samples()) estimate.Add(sample.t_ns, sample.X_WB);
+    estimate.Close();
+    if (truth_written) continue;
+    ground_truth::TumWriter truth(folder.File("truth.tum"));
+    for (const auto& sample : track->samples()) truth.Add(sample.t_ns, sample.X_WB_true);
+    truth.Close();
+    truth_written = true;
+  }
+}
+
+Tracks TracksOf(const Bench& bench) {
+  Tracks tracks;
+  const std::vector<std::string> names = bench.names();
+  for (std::size_t i = 0; i < names.size(); ++i) tracks[names[i]] = &bench.track(i);
+  return tracks;
+}
+
+std::string ReadFile(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// A finished result of the same resolved scenario, as it was; nothing if there is none.
+std::optional<RunResult> Finished(const fs::path& folder, const std::string& scenario,
+                                  std::uint64_t seed, const std::string& resolved) {
+  if (!IsFinishedResult(folder, scenario, seed)) return std::nullopt;
+  if (ReadFile(folder / kResolved) != resolved) return std::nullopt;
+  const auto json = nlohmann::json::parse(ReadFile(folder / "run.json"), nullptr, false);
+  if (!json.is_object() || json.value("outcome", "") != "finished") return std::nullopt;
+  RunResult result = ScoreResults(folder, {});
+  result.resumed = true;
+  return result;
+}
+
+/// Runs `experiment`; what fails in the world or in an estimator becomes the result's failure.
+void RunExperiment(Experiment& experiment, const RunOptions& options, RunResult& result) {
+  Experiment::Hooks hooks{options.stop, options.progress, options.poison_truth};
+  try {
+    if (!experiment.Run(hooks)) result.outcome = Outcome::kInterrupted;
+  } catch (const sim::WorldFailure& failure) {
+    result.failure = failure.what();
+  } catch (const EstimatorFailure& failure) {
+    result.failure = failure.what();
+  } catch (const ProcessFailure& failure) {
+    result.failure = failure.what();
+  }
+  if (!result.failure.empty()) result.outcome = Outcome::kFailed;
+  result.costs = experiment.costs();
+}
+
+fs::path FolderOf(const fs::path& out, const std::string& name, std::uint64_t seed) {
+  return out / name / fmt::format("seed_{:05}", seed);
+}
+
+}  // namespace
+
+int RunResult::exit_code() const {
+  if (outcome != Outcome::kFinished) return 3;
+  for (const Verdict& verdict : verdicts) {
+    if (!verdict.holds) return 1;
+  }
+  return 0;
+}
+
+RunResult RunScenario(const Scenario& scenario, const std::string& name,
+                      const RunOptions& options) {
+  LapTimer wall;
+  RunResult result;
+  result.scenario = name;
+  result.seed = scenario.seed;
+  result.folder = FolderOf(options.out, name, scenario.seed);
+  const std::string resolved = WriteScenario(scenario);
+  if (options.resume) {
+    if (auto finished = Finished(result.folder, name, scenario.seed, resolved)) return *finished;
+  }
+  const Robot robot = LoadRobot(scenario);
+  ResultsFolder folder(result.folder, name, scenario.seed, options.force);
+  folder.Write(kResolved, resolved);
+  ground_truth::RunRecorder recorder(folder.File(kRecording), PlanOf(scenario, robot, resolved));
+  Experiment experiment(scenario, robot, &recorder);
+  RunExperiment(experiment, options, result);
+  if (result.outcome == Outcome::kInterrupted) return result;
+
+  LapTimer timer;
+  recorder.Close();
+  timer.Lap(result.costs.recording_s);
+  const Tracks tracks = TracksOf(experiment.bench());
+  ScoreTracks(scenario, robot, tracks, result);
+  timer.Lap(result.costs.scoring_s);
+  WriteTrajectories(tracks, folder);
+  folder.Write("metrics.json", MetricsJson(result).dump(2) + "\n");
+  timer.Lap(result.costs.recording_s);
+  wall.Lap(result.costs.wall_s);
+  folder.Write("run.json", RunJson(result, options.command).dump(2) + "\n");
+  folder.Publish();
+  return result;
+}
+
+RunResult ScoreResults(const fs::path& folder, const std::vector<std::string>& overrides) {
+  const fs::path resolved = folder / kResolved;
+  const auto run = nlohmann::json::parse(ReadFile(folder / "run.json"), nullptr, false);
+  if (!run.is_object() || !fs::exists(resolved)) {
+    throw std::invalid_argument("not a result folder: it has no run.json and resolved.yaml");
+  }
+  const Scenario scenario = ReadScenario(resolved.string(), overrides);
+  const Robot robot = LoadRobot(scenario);
+  RunResult result;
+  result.scenario = run.value("scenario", "");
+  result.seed = scenario.seed;
+  result.folder = folder;
+  result.failure = run.value("failure", "");
+  if (run.value("outcome", "") != "finished") result.outcome = Outcome::kFailed;
+  const std::map<std::string, Track> recorded = ReadTracks(folder / kRecording);
+  Tracks tracks;
+  for (const auto& [name, track] : recorded) tracks[name] = &track;
+  ScoreTracks(scenario, robot, tracks, result);
+  WriteWholeFile(folder / "metrics.json", MetricsJson(result).dump(2) + "\n");
+  return result;
+}
+
+}  // namespace reckon::harness

@@ -1,0 +1,112 @@
+#include "reckon/harness/run_json.h"
+
+#include <sys/utsname.h>
+
+#include <string_view>
+
+#include "reckon/build_info.h"
+#include "reckon/sim/world.h"
+
+namespace reckon::harness {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::string_view OutcomeName(Outcome outcome) {
+  switch (outcome) {
+    case Outcome::kFinished:
+      return "finished";
+    case Outcome::kFailed:
+      return "failed";
+    case Outcome::kInterrupted:
+      return "interrupted";
+  }
+  return "unknown";
+}
+
+ordered_json PlatformJson() {
+  utsname name{};
+  uname(&name);
+  return {{"system", name.sysname},
+          {"release", name.release},
+          {"machine", name.machine},
+          {"compiler", __VERSION__},
+          {"physics", sim::World::PhysicsVersion()}};
+}
+
+ordered_json CallJson(const CallCost& cost) {
+  return {{"calls", cost.calls}, {"mean_us", cost.mean_us()}};
+}
+
+ordered_json CostsJson(const Costs& costs) {
+  ordered_json estimators = ordered_json::object();
+  for (const auto& [name, cost] : costs.estimators) {
+    estimators[name] = {{"propagation", CallJson(cost.propagations)},
+                        {"correction", CallJson(cost.corrections)}};
+  }
+  return {{"setup_s", costs.setup_s},         {"physics_and_driver_s", costs.physics_s},
+          {"sensors_s", costs.sensors_s},     {"estimators_s", costs.estimators_s},
+          {"recording_s", costs.recording_s}, {"scoring_s", costs.scoring_s},
+          {"estimators", estimators}};
+}
+
+ordered_json VerdictsJson(const RunResult& result) {
+  ordered_json verdicts = ordered_json::array();
+  for (const Verdict& verdict : result.verdicts) {
+    verdicts.push_back({{"expectation", verdict.expectation},
+                        {"holds", verdict.holds},
+                        {"detail", verdict.detail}});
+  }
+  return verdicts;
+}
+
+ordered_json EstimatorsJson(const RunResult& result) {
+  ordered_json estimators = ordered_json::object();
+  for (const EstimatorScore& score : result.scores) {
+    estimators[score.name] = ToJson(score.metrics);
+  }
+  return estimators;
+}
+
+}  // namespace
+
+ordered_json MetricsJson(const RunResult& result) {
+  return {{"schema", 1},
+          {"scenario", result.scenario},
+          {"seed", result.seed},
+          {"complete", result.outcome == Outcome::kFinished},
+          {"estimators", EstimatorsJson(result)}};
+}
+
+ordered_json RunJson(const RunResult& result, const std::string& command) {
+  ordered_json json = {{"schema", 1},
+                       {"scenario", result.scenario},
+                       {"seed", result.seed},
+                       {"outcome", OutcomeName(result.outcome)},
+                       {"failure", result.failure},
+                       {"exit_code", result.exit_code()},
+                       {"command", command},
+                       {"version", RECKON_VERSION},
+                       {"commit", RECKON_COMMIT},
+                       {"platform", PlatformJson()},
+                       {"simulated_s", result.costs.simulated_s},
+                       {"wall_s", result.costs.wall_s},
+                       {"real_time_factor", result.costs.real_time_factor()},
+                       {"costs", CostsJson(result.costs)},
+                       {"expectations", VerdictsJson(result)}};
+  return json;
+}
+
+ordered_json SummaryJson(const RunResult& result, const std::string& command) {
+  return {{"scenario", result.scenario},
+          {"seed", result.seed},
+          {"results", result.folder.string()},
+          {"outcome", OutcomeName(result.outcome)},
+          {"failure", result.failure},
+          {"exit_code", result.exit_code()},
+          {"command", command},
+          {"expectations", VerdictsJson(result)},
+          {"estimators", EstimatorsJson(result)}};
+}
+
+}  // namespace reckon::harness

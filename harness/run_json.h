@@ -1,0 +1,19 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "reckon/harness/run.h"
+
+namespace reckon::harness {
+
+/// metrics.json: every score of every estimator. The same run gives the same bytes.
+nlohmann::ordered_json MetricsJson(const RunResult& result);
+
+/// run.json: where, when and how fast it ran, what it cost, how it ended and how to repeat it.
+nlohmann::ordered_json RunJson(const RunResult& result, const std::string& command);
+
+/// What `--json` prints for one run: outcome, expectations and scores.
+nlohmann::ordered_json SummaryJson(const RunResult& result, const std::string& command);
+
+}  // namespace reckon::harness

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "reckon/ground_truth/truth.h"
+
+namespace reckon::harness {
+
+/// The newest stretch of truth, a bounded ring: estimates carry the stamp of the sample that moved
+/// them, which lies a little in the past.
+class TruthHistory {
+ public:
+  explicit TruthHistory(std::size_t capacity) : ring_(capacity) {}
+
+  void Add(const ground_truth::Truth& truth) {
+    ring_[next_ % ring_.size()] = truth;
+    ++next_;
+  }
+
+  /// Truth at `t_ns`: the recorded instant itself, or between two instants the interpolated pose,
+  /// velocity and rates (a misreported stamp need not lie on the physics grid). Nothing for an
+  /// instant outside the ring.
+  std::optional<ground_truth::Truth> At(models::TimeNs t_ns) const;
+
+ private:
+  const ground_truth::Truth& Entry(std::size_t i) const { return ring_[i % ring_.size()]; }
+
+  std::vector<ground_truth::Truth> ring_;
+  std::size_t next_ = 0;  ///< entries ever added
+};
+
+}  // namespace reckon::harness
