@@ -62,6 +62,10 @@ class Hdf5Quiet {
 Hdf5Handle Own(hid_t id, Hdf5Handle::Closer close, const std::filesystem::path& path,
                const std::string& action);
 
+/// Lets everything that HDF5 still writes to `file` go to memory instead. HDF5 can't close a file
+/// that it can't write to: it would keep the disk's space and crash at the end of the process.
+void DivertFile(hid_t file);
+
 /// Texts as attributes of a file, group or dataset: variable-length UTF-8.
 void WriteAttribute(hid_t object, const std::string& name, const std::string& text);
 void WriteAttribute(hid_t object, const std::string& name, const std::vector<std::string>& texts);

@@ -1,6 +1,5 @@
 #include "reckon/ground_truth/nees.h"
 
-#include <Eigen/Cholesky>
 #include <limits>
 
 #include "reckon/ground_truth/estimate_error.h"
@@ -10,14 +9,26 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// eᵀ P⁻¹ e by LDLᵀ of the lower triangle.
+/// eᵀ P⁻¹ e by LDLᵀ of the lower triangle, column by column: Σ y_j² / d_j with L y = e. A positive
+/// definite matrix needs no pivoting.
 template <int n>
-double BlockNees(const Eigen::Matrix<double, n, 1>& e, const Eigen::Matrix<double, n, n>& P,
-                 bool* indefinite) {
-  const Eigen::LDLT<Eigen::Matrix<double, n, n>> ldlt(P);
-  const bool definite = ldlt.info() == Eigen::Success && ldlt.vectorD().minCoeff() > 0.0;
-  if (!definite) *indefinite = true;
-  return definite ? e.dot(ldlt.solve(e)) : kNone;
+double NormalisedSquare(Eigen::Matrix<double, n, 1> y, Eigen::Matrix<double, n, n> P,
+                        bool* indefinite) {
+  double sum = 0.0;
+  for (int j = 0; j < n; ++j) {
+    const double d = P(j, j);
+    if (!(d > 0.0)) {
+      *indefinite = true;
+      return kNone;
+    }
+    sum += y[j] * y[j] / d;
+    for (int k = j + 1; k < n; ++k) {
+      const double factor = P(k, j) / d;
+      y[k] -= factor * y[j];
+      for (int i = k; i < n; ++i) P(i, k) -= factor * P(i, j);
+    }
+  }
+  return sum;
 }
 
 }  // namespace
@@ -42,12 +53,12 @@ Nees ComputeNees(const Truth& truth, const estimator::Estimate& estimate) {
     }
     const auto index = static_cast<std::size_t>(block);
     nees.estimated[index] = true;
-    nees.value[index] = BlockNees<3>(error.segment<3>(3 * block), P, &nees.indefinite);
+    nees.value[index] = NormalisedSquare<3>(error.segment<3>(3 * block), P, &nees.indefinite);
   }
   nees.estimated[kNeesFull] = all;
   if (all) {
     nees.value[kNeesFull] =
-        BlockNees<estimator::kErrorSize>(error, estimate.covariance, &nees.indefinite);
+        NormalisedSquare<estimator::kErrorSize>(error, estimate.covariance, &nees.indefinite);
   }
   return nees;
 }

@@ -58,7 +58,6 @@ class RunRecorder::Impl {
   }
 
   ~Impl() {
-    const Hdf5Quiet quiet;
     try {
       Close();
     } catch (const RecordingError&) {  // the caller did not want to hear of it
@@ -121,13 +120,27 @@ class RunRecorder::Impl {
     if (closed_) return;
     closed_ = true;
     const Hdf5Quiet quiet;
-    ForEachTable([](TableWriter& table) { table.Flush(); });
-    bool closed = true;
-    ForEachTable([&closed](TableWriter& table) { closed = table.Close() && closed; });
-    if (!file_.Close() || !closed) ThrowHdf5(path_, "can't close");
+    try {
+      bool failed = false;
+      ForEachTable([&failed](TableWriter& table) { failed = failed || table.failed(); });
+      if (failed) throw RecordingError(path_.string() + ": an earlier write failed");
+      ForEachTable([](TableWriter& table) { table.Flush(); });
+      if (H5Fflush(file_.get(), H5F_SCOPE_LOCAL) < 0) ThrowHdf5(path_, "can't write");
+    } catch (const RecordingError&) {
+      DivertFile(file_.get());
+      CloseAll();
+      throw;
+    }
+    if (!CloseAll()) ThrowHdf5(path_, "can't close");
   }
 
  private:
+  bool CloseAll() {
+    bool closed = true;
+    ForEachTable([&closed](TableWriter& table) { closed = table.Close() && closed; });
+    return file_.Close() && closed;
+  }
+
   static bool IsDue(models::TimeNs t_ns, models::TimeNs period_ns) {
     return period_ns <= 0 || t_ns % period_ns == 0;
   }

@@ -78,6 +78,7 @@ void TableWriter::Flush() {
   if (H5Dset_extent(dataset_.get(), extent) < 0 ||
       H5Dwrite_chunk(dataset_.get(), H5P_DEFAULT, 0, offset, buffer_.size(), buffer_.data()) < 0 ||
       H5Dflush(dataset_.get()) < 0) {
+    failed_ = true;
     ThrowHdf5(path_, "can't write");
   }
   written_ += waiting_;

@@ -76,6 +76,9 @@ class TableWriter {
   /// only whole chunks are written; more rows may follow only after a whole chunk.
   void Flush();
 
+  /// Whether a write failed: the file is then of no more use.
+  bool failed() const { return failed_; }
+
   hid_t dataset() const { return dataset_.get(); }
   bool Close() { return dataset_.Close(); }
 
@@ -84,6 +87,7 @@ class TableWriter {
   Hdf5Handle dataset_;
   std::size_t row_bytes_, chunk_rows_;
   bool matrix_;
+  bool failed_ = false;
   hsize_t width_, written_ = 0;
   std::size_t waiting_ = 0;
   std::vector<std::byte> buffer_;
