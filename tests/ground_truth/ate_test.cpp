@@ -48,7 +48,8 @@ TEST(AbsoluteError, SeesAShiftedStampAndASwappedQuaternion) {
   EXPECT_LT(Summarise(honest.orientation_deg).rmse, 1e-6);
 
   const AbsoluteErrors late = score([](estimator::Estimate& estimate) {
-    const Truth truth = testing::CircleTruth(std::max<models::TimeNs>(0, estimate.t_ns - 20'000'000));
+    const Truth truth =
+        testing::CircleTruth(std::max<models::TimeNs>(0, estimate.t_ns - 20'000'000));
     estimate.X_WB = truth.X_WB;
   });
   EXPECT_NEAR(Summarise(late.position_m).rmse, 0.02, 0.004);  // 1 m/s for 20 ms

@@ -11,8 +11,8 @@ using testing::LineTrack;
 
 TEST(Drift, OfALine) {
   // 100 m in 100 s; a constant offset is no drift, 1 cm a metre sideways is.
-  const Drift drift = DriftOf(
-      LineTrack(101, [](int k) { return Eigen::Vector3d(5.0, 0.01 * k, 0.0); }).samples());
+  const Drift drift =
+      DriftOf(LineTrack(101, [](int k) { return Eigen::Vector3d(5.0, 0.01 * k, 0.0); }).samples());
   EXPECT_NEAR(drift.final_m, 1.0, 1e-12);
   EXPECT_NEAR(drift.percent, 1.0, 1e-12);
   EXPECT_NEAR(drift.path_m, 100.0, 1e-12);

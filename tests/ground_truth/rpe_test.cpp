@@ -55,9 +55,11 @@ TEST(Pairs, ByTime) {
 TEST(RelativeError, OfAScaleErrorIsThatOfTheSegment) {
   const Track track = LineTrack(21, [](int k) { return Eigen::Vector3d(0.02 * k, 0.0, 0.0); });
   const auto pairs = PairsByPath(track.samples(), 10.0, PairChoice::kAll);
-  EXPECT_EQ(pairs.size(), 11U);
-  for (const double error : RelativeError(track.samples(), pairs).translation_m) {
-    EXPECT_NEAR(error, 0.2, 1e-13);  // 2 % of 10 m
+  const auto errors = RelativeError(track.samples(), pairs).translation_m;
+  ASSERT_EQ(pairs.size(), 12U);  // 0 to 10, …, 10 to 20, and 11 to 20, which is within 10 %
+  for (std::size_t k = 0; k < pairs.size(); ++k) {
+    const auto metres = static_cast<double>(pairs[k].second - pairs[k].first);
+    EXPECT_NEAR(errors[k], 0.02 * metres, 1e-13);
   }
 }
 

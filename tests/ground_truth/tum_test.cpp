@@ -28,7 +28,8 @@ TEST(Tum, ReadsBackWhatItWrote) {
   const TemporaryFolder folder;
   TumWriter writer(folder / "a.tum");
   for (int k = 0; k < 5000; ++k) {
-    writer.Add(models::TimeNs{k} * 4'999'999, {SomeRotation(0.01 * k), {1.0 / (k + 1), k / 3.0, -1.0 * k}});
+    writer.Add(models::TimeNs{k} * 4'999'999,
+               {SomeRotation(0.01 * k), {1.0 / (k + 1), k / 3.0, -1.0 * k}});
   }
   writer.Close();
   const auto poses = ReadTum(folder / "a.tum");
