@@ -70,7 +70,7 @@ progress() {  # PRESET
   local line tenth shown=-1 newline=''
   while IFS= read -r line; do
     if [[ $line =~ ^\[([0-9]+)/([0-9]+)\] ]]; then
-      ((BASH_REMATCH[2] >= 5)) || continue
+      ((BASH_REMATCH[2] >= 10)) || continue  # not worth a line
       tenth=$((10 * BASH_REMATCH[1] / BASH_REMATCH[2]))
       if [[ -t 2 ]]; then
         printf '\r\033[Kreckon: building %s %s' "$1" "${BASH_REMATCH[0]}" >&2
