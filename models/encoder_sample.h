@@ -14,8 +14,8 @@ using EncoderVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 
 /// What a set of rotary encoders (wheels or joints) reports: one entry an encoder, in the order of
 /// the sensor's description.
 ///
-/// `angle_rad` is the accumulated, quantised angle at the time of validity; `rate_rad_s` is its mean
-/// rate over (t − interval, t], as the firmware computes it from counts.
+/// `angle_rad` is the accumulated, quantised angle at the time of validity; `rate_rad_s` is its
+/// mean rate over (t − interval, t], as the firmware computes it from counts.
 struct EncoderSample {
   EncoderVector angle_rad;
   EncoderVector rate_rad_s;

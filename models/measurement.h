@@ -13,14 +13,16 @@ namespace reckon::models {
 /// The place of a sensor in its robot's suite (`Suite::sensors`).
 using SensorId = std::uint16_t;
 
-/// Everything that a robot's hardware can send. The variant is closed: truth is not one of its types.
+/// Everything that a robot's hardware can send. The variant is closed: truth is not one of its
+/// types.
 using Sample = std::variant<ImuSample, EncoderSample, BodyVelocitySample>;
 
 /// One message of one sensor: the only thing that an estimator is ever given.
 struct Measurement {
   SensorId sensor = 0;
-  TimeNs valid_ns = 0;    ///< when the sample was true (the end of its interval, if it has one)
-  TimeNs arrival_ns = 0;  ///< when it reaches the estimator; not before `valid_ns` on honest hardware
+  TimeNs valid_ns = 0;  ///< when the sample was true (the end of its interval, if it has one)
+  TimeNs arrival_ns =
+      0;  ///< when it reaches the estimator; not before `valid_ns` on honest hardware
   Sample sample;
 };
 

@@ -5,8 +5,8 @@
 
 namespace reckon::models {
 
-/// A rigid transform X_AB: the rotation `R` takes B's coordinates to A's, `p` is B's origin in A [m].
-/// Adjacent letters must match in a product: X_AC = X_AB * X_BC.
+/// A rigid transform X_AB: the rotation `R` takes B's coordinates to A's, `p` is B's origin in A
+/// [m]. Adjacent letters must match in a product: X_AC = X_AB * X_BC.
 struct Pose {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   Eigen::Vector3d p = Eigen::Vector3d::Zero();

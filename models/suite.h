@@ -17,8 +17,8 @@ enum class SensorKind : std::uint8_t { kImu, kEncoders, kBodyVelocity };
 struct MountedSensor {
   std::string name;
   SensorKind kind = SensorKind::kImu;
-  Pose X_BS;              ///< the sensor's frame in the body: rotation and lever arm, never assumed zero
-  TimeNs period_ns = 0;   ///< nominal time between two samples
+  Pose X_BS;  ///< the sensor's frame in the body: rotation and lever arm, never assumed zero
+  TimeNs period_ns = 0;  ///< nominal time between two samples
 };
 
 /// The believed drive of a skid-steered or differential robot.
@@ -27,10 +27,10 @@ struct MountedSensor {
 /// conditions v_y = v_z = 0 hold in the frame `X_BS`, whose origin is the centre of rotation that a
 /// calibration finds, not necessarily the body's.
 struct WheelDrive {
-  std::string encoders;                       ///< the sensor that reports the wheels
-  std::vector<int> left, right;               ///< entries of its sample, by side
+  std::string encoders;          ///< the sensor that reports the wheels
+  std::vector<int> left, right;  ///< entries of its sample, by side
   double rolling_radius_m = 0.0;
-  double effective_track_m = 0.0;             ///< (v_right − v_left) / yaw rate, slip included
+  double effective_track_m = 0.0;  ///< (v_right − v_left) / yaw rate, slip included
   Pose X_BS;
 };
 

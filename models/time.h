@@ -4,8 +4,8 @@
 
 namespace reckon::models {
 
-/// A stamp: integer nanoseconds since the run's start. Durations are differences of stamps; they are
-/// never summed in floating point.
+/// A stamp: integer nanoseconds since the run's start. Durations are differences of stamps; they
+/// are never summed in floating point.
 using TimeNs = std::int64_t;
 
 inline constexpr TimeNs kNsPerSecond = 1'000'000'000;

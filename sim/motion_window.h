@@ -13,7 +13,7 @@ struct MotionWindow {
   models::TimeNs t_ns = 0;
   models::TimeNs step_ns = 0;
   models::Pose X_WB_previous, X_WB, X_WB_next;
-  models::EncoderVector joint_angle_rad;   ///< accumulated, in the order of the world's encoders
+  models::EncoderVector joint_angle_rad;  ///< accumulated, in the order of the world's encoders
   models::EncoderVector joint_rate_rad_s;
 
   /// Velocity in W of the point fixed at `p_BS` in the body: (p_S,k+1 − p_S,k−1) / 2h.

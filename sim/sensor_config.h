@@ -10,8 +10,8 @@ namespace reckon::sim {
 
 /// When a sensor samples and how long its message travels.
 struct Timing {
-  double rate_hz = 200.0;   ///< an integer fraction of the physics rate
-  double latency_s = 0.0;   ///< from validity to arrival
+  double rate_hz = 200.0;  ///< an integer fraction of the physics rate
+  double latency_s = 0.0;  ///< from validity to arrival
   /// The sensor's clock is off: a sample of instant t claims to be valid at t + this. It arrives
   /// `latency_s` after both.
   double stamp_error_s = 0.0;
@@ -20,16 +20,16 @@ struct Timing {
 /// The errors of one triad (gyroscope or accelerometer), `sensor_models.md` 3.1. SI units; u is
 /// rad/s for a gyroscope and m/s² for an accelerometer. Zero means absent.
 struct TriadErrors {
-  double noise_density = 0.0;            ///< white, u/√Hz
-  double bias_walk = 0.0;                ///< random walk, u/s/√Hz
-  double bias_instability = 0.0;         ///< stationary σ_B of a first-order Gauss-Markov process, u
-  double bias_time_constant_s = 300.0;   ///< its τ
-  double turn_on_bias = 0.0;             ///< σ of the bias drawn once a run, u
-  double scale = 0.0;                    ///< σ of the scale error drawn once an axis and run
-  double misalignment = 0.0;             ///< σ of each off-diagonal term of M drawn once a run, rad
-  double g_sensitivity = 0.0;            ///< σ of each entry of G drawn once a run, u/(m/s²); gyroscope only
-  double range = 0.0;                    ///< clips at ±range and sets the flag; 0: no limit
-  double resolution = 0.0;               ///< u per least significant bit; 0: not quantised
+  double noise_density = 0.0;     ///< white, u/√Hz
+  double bias_walk = 0.0;         ///< random walk, u/s/√Hz
+  double bias_instability = 0.0;  ///< stationary σ_B of a first-order Gauss-Markov process, u
+  double bias_time_constant_s = 300.0;  ///< its τ
+  double turn_on_bias = 0.0;            ///< σ of the bias drawn once a run, u
+  double scale = 0.0;                   ///< σ of the scale error drawn once an axis and run
+  double misalignment = 0.0;            ///< σ of each off-diagonal term of M drawn once a run, rad
+  double g_sensitivity = 0.0;  ///< σ of each entry of G drawn once a run, u/(m/s²); gyroscope only
+  double range = 0.0;          ///< clips at ±range and sets the flag; 0: no limit
+  double resolution = 0.0;     ///< u per least significant bit; 0: not quantised
 };
 
 enum class ImuMode { kIncrement, kPoint };
@@ -41,19 +41,19 @@ struct ImuConfig {
   std::string grade = "perfect";
   ImuMode mode = ImuMode::kIncrement;
   TriadErrors gyro = {}, accel = {};
-  double bandwidth_hz = 0.0;   ///< of the anti-alias filter inside the physics step; 0: none
-  int bandwidth_poles = 2;     ///< 1 or 2
+  double bandwidth_hz = 0.0;  ///< of the anti-alias filter inside the physics step; 0: none
+  int bandwidth_poles = 2;    ///< 1 or 2
 };
 
 /// Rotary encoders of all wheels (or joints), `sensor_models.md` 3.3.
 struct EncoderConfig {
   Timing timing{.rate_hz = 50.0};
-  double counts_per_rad = 0.0;        ///< 0: not quantised
-  double noise_rad = 0.0;             ///< white, per reading, before quantisation
-  double eccentricity_rad = 0.0;      ///< A of A sin(q + φ), φ drawn once a run
-  double offset_rad = 0.0;            ///< σ of the constant offset drawn once a run
-  double scale = 0.0;                 ///< σ of the scale error drawn once an encoder and run
-  double rate_window_s = 0.01;        ///< the firmware differences counts over this window
+  double counts_per_rad = 0.0;    ///< 0: not quantised
+  double noise_rad = 0.0;         ///< white, per reading, before quantisation
+  double eccentricity_rad = 0.0;  ///< A of A sin(q + φ), φ drawn once a run
+  double offset_rad = 0.0;        ///< σ of the constant offset drawn once a run
+  double scale = 0.0;             ///< σ of the scale error drawn once an encoder and run
+  double rate_window_s = 0.01;    ///< the firmware differences counts over this window
 };
 
 /// An ideal sensor of the body's velocity: white noise and nothing else.

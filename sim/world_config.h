@@ -15,15 +15,15 @@ struct TerrainConfig {
   TerrainKind kind = TerrainKind::kFlat;
   double friction = 0.8;
   double rolling_resistance = 0.015;
-  double half_size_m = 40.0;       ///< the map is the square |x|, |y| ≤ half_size; beyond it a run ends
-  double angle_deg = 10.0;         ///< slope: ground rises along `uphill_deg`
-  double uphill_deg = 0.0;         ///< slope: direction of ascent, from +x towards +y
-  double rms_m = 0.03;             ///< rough: standard deviation of the height
-  double shortest_wave_m = 0.6;    ///< rough: cosines between these two wavelengths,
-  double longest_wave_m = 8.0;     ///<        amplitude ∝ λ^0.8, scaled to the RMS
-  double kerb_height_m = 0.04;     ///< kerbs: boxes across the path,
-  double kerb_width_m = 0.30;      ///<        this wide (along x),
-  double kerb_spacing_m = 3.0;     ///<        one every so many metres along x
+  double half_size_m = 40.0;  ///< the map is the square |x|, |y| ≤ half_size; beyond it a run ends
+  double angle_deg = 10.0;    ///< slope: ground rises along `uphill_deg`
+  double uphill_deg = 0.0;    ///< slope: direction of ascent, from +x towards +y
+  double rms_m = 0.03;        ///< rough: standard deviation of the height
+  double shortest_wave_m = 0.6;  ///< rough: cosines between these two wavelengths,
+  double longest_wave_m = 8.0;   ///<        amplitude ∝ λ^0.8, scaled to the RMS
+  double kerb_height_m = 0.04;   ///< kerbs: boxes across the path,
+  double kerb_width_m = 0.30;    ///<        this wide (along x),
+  double kerb_spacing_m = 3.0;   ///<        one every so many metres along x
 };
 
 /// A rectangle with another friction: [centre x, centre y, size x, size y].
@@ -38,31 +38,31 @@ enum class PathKind { kStand, kSquare, kCircle, kFigureEight, kWaypoints, kVeloc
 struct MotionConfig {
   PathKind path = PathKind::kStand;
   double speed_m_s = 0.8;
-  double start_s = 1.0;             ///< the robot stands still until then
-  double side_m = 10.0;             ///< square
-  double radius_m = 5.0;            ///< circle, and each lobe of the figure of eight
-  double laps = 1000.0;             ///< square, circle, figure of eight: then it stops
+  double start_s = 1.0;   ///< the robot stands still until then
+  double side_m = 10.0;   ///< square
+  double radius_m = 5.0;  ///< circle, and each lobe of the figure of eight
+  double laps = 1000.0;   ///< square, circle, figure of eight: then it stops
   bool clockwise = false;
-  std::vector<std::array<double, 2>> waypoints_m;   ///< waypoints: stops at the last one
+  std::vector<std::array<double, 2>> waypoints_m;  ///< waypoints: stops at the last one
   /// velocity profile: rows [t_s, v_m_s, yaw_rate_rad_s], held until the next row
   std::vector<std::array<double, 3>> profile;
 };
 
 /// How the simulated robot differs from the nominal one.
 struct ActualConfig {
-  std::array<double, 2> wheel_radius_scale{1.0, 1.0};   ///< left, right
+  std::array<double, 2> wheel_radius_scale{1.0, 1.0};  ///< left, right
   double track_scale = 1.0;
-  double mass_scale = 1.0;                              ///< of the base link
-  Eigen::Vector3d com_offset_m = Eigen::Vector3d::Zero();          ///< of the base link, in B
-  Eigen::Vector3d imu_offset_m = Eigen::Vector3d::Zero();          ///< of the IMU's origin, in B
-  Eigen::Vector3d imu_rotation_deg = Eigen::Vector3d::Zero();      ///< rotation vector, in B
+  double mass_scale = 1.0;                                     ///< of the base link
+  Eigen::Vector3d com_offset_m = Eigen::Vector3d::Zero();      ///< of the base link, in B
+  Eigen::Vector3d imu_offset_m = Eigen::Vector3d::Zero();      ///< of the IMU's origin, in B
+  Eigen::Vector3d imu_rotation_deg = Eigen::Vector3d::Zero();  ///< rotation vector, in B
 };
 
 /// Everything that the world is made from, beside the robot.
 struct WorldConfig {
   double physics_step_s = 0.001;
   double gravity_m_s2 = 9.81;
-  double settle_s = 1.0;   ///< the robot comes to rest before t = 0
+  double settle_s = 1.0;  ///< the robot comes to rest before t = 0
   TerrainConfig terrain;
   std::vector<PatchConfig> patches;
   MotionConfig motion;
