@@ -3,12 +3,13 @@
 #include <array>
 #include <cstddef>
 
+#include "reckon/estimator/report.h"
 #include "reckon/models/measurement.h"
 
 namespace reckon::estimator {
 
-/// A few measurements that wait until the IMU reaches their time of validity. Fixed capacity; they
-/// leave in order of validity.
+/// A few measurements that wait until the IMU reaches their time of validity: no more than one
+/// report can show. They leave in order of validity.
 class HoldingBuffer {
  public:
   /// Keeps `measurement`; false if there is no room.
@@ -22,6 +23,8 @@ class HoldingBuffer {
 
   bool HasUntil(models::TimeNs t_ns) const { return size_ > 0 && held_[0].valid_ns <= t_ns; }
 
+  models::TimeNs first_ns() const { return held_[0].valid_ns; }
+
   /// The earliest; there must be one.
   models::Measurement Take() {
     const models::Measurement first = held_[0];
@@ -33,7 +36,7 @@ class HoldingBuffer {
   void Clear() { size_ = 0; }
 
  private:
-  std::array<models::Measurement, 16> held_;
+  std::array<models::Measurement, kMaxCorrections> held_;
   std::size_t size_ = 0;
 };
 

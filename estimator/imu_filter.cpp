@@ -6,6 +6,7 @@
 
 #include "reckon/estimator/kalman.h"
 #include "reckon/estimator/sample_checks.h"
+#include "reckon/estimator/setup_checks.h"
 
 namespace reckon::estimator {
 namespace {
@@ -17,8 +18,10 @@ constexpr TimeNs kLeastTolerance = 15'000'000;
 /// A motion nobody saw, one sigma of a constant rate and acceleration beside the held sample.
 constexpr double kUnseenRate = 0.5;          ///< rad/s
 constexpr double kUnseenAcceleration = 3.0;  ///< m/s²
-/// Gaps are bridged in steps no longer than this: series and gravity stay exact.
-constexpr TimeNs kBridgeStep = 50'000'000;
+/// No step is longer: the covariance of a bridged gap sees its nonlinearity.
+constexpr TimeNs kLongestStep = 50'000'000;
+/// A correction that is further ahead of the IMU is not worth waiting for.
+constexpr TimeNs kLongestWait = models::kNsPerSecond;
 /// A clipped sample says little: its noise is taken this many times larger.
 constexpr double kSaturatedFactor = 100.0;
 
@@ -50,6 +53,7 @@ ImuFilter<Core>::ImuFilter(const Setup& setup)
       period_ns_(setup.suite.sensors[imu_].period_ns),
       tolerance_ns_(std::max(kLeastTolerance, 3 * period_ns_ / 2)),
       static_(setup, models::Seconds(period_ns_)) {
+  CheckSetup(setup);
   if (period_ns_ <= 0) throw std::invalid_argument("the IMU's period must be positive");
   if (!setup.estimate_gyro_bias) noise_.gyro_walk = 0.0;
   if (!setup.estimate_accel_bias) noise_.accel_walk = 0.0;
@@ -57,6 +61,7 @@ ImuFilter<Core>::ImuFilter(const Setup& setup)
 
 template <class Core>
 void ImuFilter<Core>::Start(const Prior& prior) {
+  CheckPrior(prior);
   held_.Clear();
   started_ = false;
   t_ns_ = prior.t_ns;
@@ -115,6 +120,10 @@ void ImuFilter<Core>::ProcessImu(const Measurement& measurement, const models::I
     report.refusal = Refusal::kBackwards;
     return;
   }
+  if (measurement.valid_ns - t_ns_ > kLongestGap) {
+    report.refusal = Refusal::kGap;
+    return;
+  }
   gyro_ = R_BS_ * sample.gyro_rad_s;
   accel_ = R_BS_ * sample.accel_m_s2;
   sample_s_ = models::Seconds(sample.interval_ns);
@@ -123,9 +132,6 @@ void ImuFilter<Core>::ProcessImu(const Measurement& measurement, const models::I
     return;
   }
   Move(measurement.valid_ns, sample, report);
-  while (held_.HasUntil(t_ns_) && report.corrections().size() < kMaxCorrections) {
-    Correct(held_.Take(), report);
-  }
 }
 
 template <class Core>
@@ -141,12 +147,6 @@ void ImuFilter<Core>::Initialise(TimeNs t_ns, double dt, Report& report) {
 
 template <class Core>
 void ImuFilter<Core>::Move(TimeNs to_ns, const models::ImuSample& sample, Report& report) {
-  const auto step = [this](TimeNs until_ns, const ProcessNoise& noise) {
-    const Increment u(gyro_ - core_.x().gyro_bias, accel_ - core_.x().accel_bias,
-                      models::Seconds(until_ns - t_ns_));
-    core_.Propagate(u, gravity_, noise);
-    t_ns_ = until_ns;
-  };
   // Stamps that jitter by less than half a sample are taken at their word: the sample covers what
   // lies between them.
   const TimeNs from_ns = to_ns - sample.interval_ns;
@@ -156,13 +156,27 @@ void ImuFilter<Core>::Move(TimeNs to_ns, const models::ImuSample& sample, Report
     ProcessNoise unseen = noise_;
     unseen.gyro += kUnseenRate * kUnseenRate * gap_s;
     unseen.accel += kUnseenAcceleration * kUnseenAcceleration * gap_s;
-    while (t_ns_ < from_ns) step(std::min(t_ns_ + kBridgeStep, from_ns), unseen);
+    Advance(from_ns, unseen, report);
   }
   ProcessNoise noise = noise_;
   if (sample.gyro_saturated) noise.gyro *= kSaturatedFactor * kSaturatedFactor;
   if (sample.accel_saturated) noise.accel *= kSaturatedFactor * kSaturatedFactor;
-  step(to_ns, noise);
+  Advance(to_ns, noise, report);
   report.propagated = true;
+}
+
+/// Holds the newest sample until `to_ns`, with a stop wherever a correction waits.
+template <class Core>
+void ImuFilter<Core>::Advance(TimeNs to_ns, const ProcessNoise& noise, Report& report) {
+  while (t_ns_ < to_ns) {
+    TimeNs until_ns = std::min(t_ns_ + kLongestStep, to_ns);
+    if (held_.HasUntil(until_ns)) until_ns = held_.first_ns();
+    const Increment u(gyro_ - core_.x().gyro_bias, accel_ - core_.x().accel_bias,
+                      models::Seconds(until_ns - t_ns_));
+    core_.Propagate(u, gravity_, noise);
+    t_ns_ = until_ns;
+    while (held_.HasUntil(t_ns_)) Correct(held_.Take(), report);
+  }
 }
 
 template <class Core>
@@ -170,14 +184,16 @@ void ImuFilter<Core>::ProcessOther(const Measurement& measurement, Report& repor
   if (!started_) {
     report.refusal = Refusal::kNotInitialised;
     if (const auto* sample = std::get_if<models::EncoderSample>(&measurement.sample)) {
-      static_.AddWheelRate(sample->rate_rad_s.cwiseAbs().maxCoeff());
+      const double fastest = sample->rate_rad_s.cwiseAbs().maxCoeff();
+      if (!static_.AddWheelRate(fastest)) report.refusal = Refusal::kMoving;
     }
     return;
   }
   if (!VelocityOf(measurement)) {
-    report.refusal = Refusal::kUnused;
+    report.refusal = IsWheels(measurement) ? Refusal::kInvalid : Refusal::kUnused;
   } else if (measurement.valid_ns > t_ns_) {
-    if (!held_.Hold(measurement)) report.refusal = Refusal::kFromFuture;
+    const bool soon = measurement.valid_ns - t_ns_ <= kLongestWait;
+    if (!soon || !held_.Hold(measurement)) report.refusal = Refusal::kFromFuture;
   } else if (t_ns_ - measurement.valid_ns > tolerance_ns_) {
     report.refusal = Refusal::kLate;
   } else {
@@ -193,13 +209,17 @@ std::optional<models::BodyVelocitySample> ImuFilter<Core>::VelocityOf(
     scaled.covariance *= setup_.noise.body_velocity_scale * setup_.noise.body_velocity_scale;
     return scaled;
   }
-  const auto* encoders = std::get_if<models::EncoderSample>(&measurement.sample);
-  const auto& wheels = setup_.suite.wheels;
-  if (encoders == nullptr || !wheels) return std::nullopt;
-  if (wheels->encoders != setup_.suite.sensors[measurement.sensor].name) return std::nullopt;
-  const auto rates = MeanRates(*encoders, *wheels);
+  if (!IsWheels(measurement)) return std::nullopt;
+  const models::WheelDrive& wheels = *setup_.suite.wheels;
+  const auto rates = MeanRates(std::get<models::EncoderSample>(measurement.sample), wheels);
   if (!rates) return std::nullopt;
-  return WheelVelocity(*rates, *wheels, setup_.noise);
+  return WheelVelocity(*rates, wheels, setup_.noise);
+}
+
+template <class Core>
+bool ImuFilter<Core>::IsWheels(const Measurement& measurement) const {
+  const auto& wheels = setup_.suite.wheels;
+  return wheels && wheels->encoders == setup_.suite.sensors[measurement.sensor].name;
 }
 
 template <class Core>

@@ -20,16 +20,18 @@ namespace reckon::estimator {
 /// shared, so that two filters of this kind differ in their error alone.
 ///
 /// Time: an IMU sample moves the state to its stamp. A correction from ahead of the state waits
-/// until the IMU is there; one from behind is used as if it were of now while it is not older than
-/// the tolerance (1.5 IMU periods, at least 15 ms), and refused as late after that. Missing IMU
-/// samples are bridged: the next sample is held over the gap, as if an unknown constant motion of
-/// 0.5 rad/s and 3 m/s² (one sigma) came on top.
+/// until the IMU is there and is used at its own time; one from behind is used as if it were of now
+/// while it is not older than the tolerance (1.5 IMU periods, at least 15 ms), and refused as late
+/// after that. Missing IMU samples are bridged: the next sample is held over the gap, as if an
+/// unknown constant motion of 0.5 rad/s and 3 m/s² (one sigma) came on top.
 template <class Core>
 class ImuFilter final : public Estimator {
  public:
-  /// Throws std::invalid_argument if the suite has no IMU or the gate's probability is not one.
+  /// Throws std::invalid_argument if the suite has no IMU, the gate's probability is not one, and
+  /// for what CheckSetup refuses.
   explicit ImuFilter(const Setup& setup);
 
+  /// Throws std::invalid_argument for what CheckPrior refuses.
   void Start(const Prior& prior) override;
   Report Process(const models::Measurement& measurement) override;
   std::optional<Estimate> Belief() const override;
@@ -42,6 +44,8 @@ class ImuFilter final : public Estimator {
                   Report& report);
   void Initialise(models::TimeNs t_ns, double dt, Report& report);
   void Move(models::TimeNs to_ns, const models::ImuSample& sample, Report& report);
+  void Advance(models::TimeNs to_ns, const ProcessNoise& noise, Report& report);
+  bool IsWheels(const models::Measurement& measurement) const;
   void ProcessOther(const models::Measurement& measurement, Report& report);
   void Correct(const models::Measurement& measurement, Report& report);
   std::optional<models::BodyVelocitySample> VelocityOf(

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <limits>
 
 #include "reckon/estimator/estimate.h"
 #include "reckon/estimator/linearisation.h"
@@ -18,9 +19,11 @@ class KalmanCorrection {
     for (const Block& b : m.blocks()) C_ += P.middleCols<3>(b.slot) * b.H.transpose();
     S_ = Times(C_) + m.N;
     solver_.compute(S_);
-    nis_ = m.z.dot(solver_.solve(m.z));
+    nis_ = solver_.info() == Eigen::Success ? m.z.dot(solver_.solve(m.z))
+                                            : std::numeric_limits<double>::quiet_NaN();
   }
 
+  /// Not a number if S is not positive definite.
   double nis() const { return nis_; }
   const Eigen::Matrix3d& S() const { return S_; }
 

@@ -1,5 +1,7 @@
 #include "reckon/estimator/multiplicative_ekf.h"
 
+#include "reckon/estimator/error_form.h"
+
 namespace reckon::estimator {
 
 using Eigen::Matrix3d;
@@ -7,11 +9,7 @@ using Eigen::Vector3d;
 
 void MultiplicativeEkf::Start(const NavigationState& x, const ErrorCovariance& P_right_invariant) {
   x_ = x;
-  ErrorCovariance T_inverse = ErrorCovariance::Identity();  // ε = T⁻¹ ξ
-  T_inverse.block<3, 3>(kTheta, kTheta) = x.R.transpose();
-  T_inverse.block<3, 3>(kVelocity, kTheta) = -Skew(x.v);
-  T_inverse.block<3, 3>(kPosition, kTheta) = -Skew(x.p);
-  P_ = T_inverse * P_right_invariant * T_inverse.transpose();
+  P_ = ConvertForm(P_right_invariant, ErrorForm::kRightInvariant, kForm, x);
 }
 
 void MultiplicativeEkf::Propagate(const Increment& u, const Vector3d& g,

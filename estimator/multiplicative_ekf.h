@@ -15,8 +15,7 @@ class MultiplicativeEkf {
  public:
   static constexpr ErrorForm kForm = ErrorForm::kMultiplicative;
 
-  /// Starts from a right-invariant covariance: ξ = T ε with θ_r = R̂ θ, ξ_v = δv + [v̂]× R̂ θ,
-  /// likewise p, to first order.
+  /// Starts from a right-invariant covariance, moved to this form (`ConvertForm`).
   void Start(const NavigationState& x, const ErrorCovariance& P_right_invariant);
 
   /// Propagates mean and covariance over one held sample, with the exact Jacobian of the step

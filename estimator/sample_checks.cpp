@@ -53,6 +53,7 @@ Refusal WhatIsWrong(const models::Measurement& measurement, const models::Suite&
   if (measurement.sensor >= suite.sensors.size()) return Refusal::kInvalid;
   const auto kind = static_cast<std::size_t>(suite.sensors[measurement.sensor].kind);
   if (measurement.sample.index() != kind) return Refusal::kInvalid;
+  if (measurement.valid_ns < 0) return Refusal::kInvalid;
   if (measurement.valid_ns > measurement.arrival_ns) return Refusal::kFromFuture;
   return std::visit([](const auto& sample) { return Check(sample); }, measurement.sample);
 }

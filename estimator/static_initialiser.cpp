@@ -76,17 +76,16 @@ StaticInitialiser::Progress StaticInitialiser::Add(const Vector3d& w, const Vect
                                                                          : Progress::kDone;
 }
 
-void StaticInitialiser::AddWheelRate(double rate_rad_s) {
-  if (std::abs(rate_rad_s) > kWheelFloor) Restart();
+bool StaticInitialiser::AddWheelRate(double rate_rad_s) {
+  if (std::abs(rate_rad_s) <= kWheelFloor) return true;
+  Restart();
+  return false;
 }
 
 Matrix3d StaticInitialiser::Rotation() const {
-  // The tilt that turns the mean specific force upwards, after the prior's yaw.
-  const Vector3d up_I = (accel_.mean - prior_.accel_bias_m_s2).normalized();
-  const Matrix3d level =
-      Eigen::Quaterniond::FromTwoVectors(up_I, Vector3d::UnitZ()).toRotationMatrix();
-  const auto yaw = [](const Matrix3d& R) { return std::atan2(R(1, 0), R(0, 0)); };
-  return Exp(Vector3d(0, 0, yaw(prior_.X_WB.R) - yaw(level))) * level;
+  const Vector3d up_I = accel_.mean - prior_.accel_bias_m_s2;
+  const Vector3d up_W = prior_.X_WB.R * up_I;
+  return Eigen::Quaterniond::FromTwoVectors(up_W, Vector3d::UnitZ()) * prior_.X_WB.R;
 }
 
 NavigationState StaticInitialiser::State(const Vector3d& p_BI) const {
@@ -99,26 +98,30 @@ NavigationState StaticInitialiser::State(const Vector3d& p_BI) const {
 }
 
 ErrorCovariance StaticInitialiser::Covariance() const {
-  ErrorCovariance P = ErrorCovariance::Zero();
-  const Matrix3d R = Rotation();
-  Matrix3d M;  // θ = M R̂ (ζ_a − n), its yaw aside
-  M << 0, -1, 0, 1, 0, 0, 0, 0, 0;
-  M /= setup_.gravity_m_s2;
-  const Matrix3d P_a = prior_.covariance.block<3, 3>(kAccelBias, kAccelBias);
-  const double n_a = accel_sigma_ * accel_sigma_ / count_;
-  const Matrix3d MR = M * R;
-  P.block<3, 3>(kTheta, kTheta) = MR * (P_a + n_a * Matrix3d::Identity()) * MR.transpose();
-  P(kTheta + 2, kTheta + 2) = prior_.covariance(kTheta + 2, kTheta + 2);
-  P.block<3, 3>(kTheta, kAccelBias) = MR * P_a;
-  P.block<3, 3>(kAccelBias, kTheta) = P_a * MR.transpose();
-  P.block<3, 3>(kAccelBias, kAccelBias) = P_a;
+  Matrix3d MR;  // θ = E_z θ₀ + M R̂ (ζ_a − n), with E_z what the smallest turn keeps of the prior's
+  MR << 0, -1, 0, 1, 0, 0, 0, 0, 0;
+  MR *= Rotation() / setup_.gravity_m_s2;
+  const Matrix3d E_z = Vector3d::UnitZ() * Vector3d::UnitZ().transpose();
+  const Matrix3d p_cross = Skew(prior_.X_WB.p);
+  // New errors from the prior's: p̂ stays, so that ξ_p = ξ_p0 + [p̂]× (θ − θ₀).
+  ErrorCovariance T = ErrorCovariance::Zero();
+  T.block<3, 3>(kTheta, kTheta) = E_z;
+  T.block<3, 3>(kTheta, kAccelBias) = MR;
+  T.block<3, 3>(kPosition, kTheta) = p_cross * (E_z - Matrix3d::Identity());
+  T.block<3, 3>(kPosition, kPosition).setIdentity();
+  T.block<3, 3>(kPosition, kAccelBias) = p_cross * MR;
+  T.block<3, 3>(kAccelBias, kAccelBias).setIdentity();
+  Eigen::Matrix<double, kErrorSize, 3> N = Eigen::Matrix<double, kErrorSize, 3>::Zero();
+  N.middleRows<3>(kTheta) = -MR;
+  N.middleRows<3>(kPosition) = -p_cross * MR;
+  ErrorCovariance P = T * prior_.covariance * T.transpose();
+  P += (accel_sigma_ * accel_sigma_ / count_) * N * N.transpose();
   P.diagonal().segment<3>(kVelocity).setConstant(kRestVelocity * kRestVelocity);
-  P.block<3, 3>(kPosition, kPosition) = prior_.covariance.block<3, 3>(kPosition, kPosition);
   const double walk = setup_.noise.gyro_bias_walk_rad_per_s2_sqrt_hz;
   // The mean of a walk lags its end by a third of what it walked.
   P.diagonal().segment<3>(kGyroBias).setConstant(gyro_sigma_ * gyro_sigma_ / count_ +
                                                  walk * walk * seconds_ / 3.0);
-  return P;
+  return 0.5 * (P + P.transpose());
 }
 
 }  // namespace reckon::estimator

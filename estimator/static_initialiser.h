@@ -9,8 +9,9 @@
 
 namespace reckon::estimator {
 
-/// Finds the first state from a resting IMU: tilt from the mean specific force, gyroscope bias from
-/// the mean rate; yaw, position and accelerometer bias come from the prior. With G = −g and ζ_a the
+/// Finds the first state from a resting IMU: gyroscope bias from the mean rate, and the smallest
+/// turn of the prior's orientation that makes the mean specific force point upwards. Position and
+/// accelerometer bias, and with that turn the yaw, are the prior's. With G = −g and ζ_a the
 /// error of the accelerometer bias that the prior gives,
 ///     θ × G = R̂ (ζ_a − n):   tilt and accelerometer bias start correlated.
 /// It refuses to run while the robot moves: a sample or a wheel that speaks of motion starts the
@@ -26,8 +27,8 @@ class StaticInitialiser {
   /// One IMU sample in the axes of I, over `dt_s`.
   Progress Add(const Eigen::Vector3d& w, const Eigen::Vector3d& a, double dt_s);
 
-  /// A wheel rate [rad/s]; one that is not zero starts the averaging over.
-  void AddWheelRate(double rate_rad_s);
+  /// A wheel rate [rad/s]; one that is not zero starts the averaging over, and gives false.
+  bool AddWheelRate(double rate_rad_s);
 
   /// The state of I and its right-invariant covariance, once Add has said kDone. `p_BI` is the
   /// IMU's origin in the body.

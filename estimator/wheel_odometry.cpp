@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "reckon/estimator/sample_checks.h"
+#include "reckon/estimator/setup_checks.h"
 #include "reckon/estimator/so3.h"
 
 namespace reckon::estimator {
@@ -10,10 +11,7 @@ namespace reckon::estimator {
 using Eigen::Vector3d;
 
 WheelOdometry::WheelOdometry(const Setup& setup) : suite_(setup.suite) {
-  if (!setup.suite.wheels || setup.suite.wheels->left.empty() ||
-      setup.suite.wheels->right.empty()) {
-    throw std::invalid_argument("wheel odometry needs wheels on both sides");
-  }
+  CheckDrive(setup.suite);
   drive_ = *setup.suite.wheels;
   if (!(drive_.effective_track_m > 0.0)) {
     throw std::invalid_argument("wheel odometry needs a positive effective track");
@@ -21,6 +19,7 @@ WheelOdometry::WheelOdometry(const Setup& setup) : suite_(setup.suite) {
 }
 
 void WheelOdometry::Start(const Prior& prior) {
+  CheckPrior(prior);
   t_ns_ = prior.t_ns;
   X_WB_ = prior.X_WB;
   v_WB_ = prior.v_WB;
@@ -31,19 +30,24 @@ Report WheelOdometry::Process(const models::Measurement& measurement) {
   Report report;
   report.refusal = WhatIsWrong(measurement, suite_);
   if (report.refusal != Refusal::kNone) return report;
-  const auto* sample = std::get_if<models::EncoderSample>(&measurement.sample);
-  const auto rates = sample != nullptr && suite_.sensors[measurement.sensor].name == drive_.encoders
-                         ? MeanRates(*sample, drive_)
-                         : std::nullopt;
-  if (!rates || !started_) {
-    report.refusal = started_ ? Refusal::kUnused : Refusal::kNotInitialised;
-    return report;
+  if (!started_) {
+    report.refusal = Refusal::kNotInitialised;
+  } else if (suite_.sensors[measurement.sensor].name != drive_.encoders) {
+    report.refusal = Refusal::kUnused;
+  } else {
+    Move(measurement.valid_ns, std::get<models::EncoderSample>(measurement.sample), report);
   }
-  if (measurement.valid_ns <= t_ns_) {
-    report.refusal = Refusal::kBackwards;
-    return report;
-  }
-  const double dt = models::Seconds(measurement.valid_ns - t_ns_);
+  return report;
+}
+
+void WheelOdometry::Move(models::TimeNs to_ns, const models::EncoderSample& sample,
+                         Report& report) {
+  const auto rates = MeanRates(sample, drive_);
+  if (!rates) report.refusal = Refusal::kInvalid;
+  if (to_ns <= t_ns_) report.refusal = Refusal::kBackwards;
+  if (to_ns - t_ns_ > kLongestGap) report.refusal = Refusal::kGap;
+  if (report.refusal != Refusal::kNone) return;
+  const double dt = models::Seconds(to_ns - t_ns_);
   const double speed = drive_.rolling_radius_m * 0.5 * (rates->left + rates->right);
   const double yaw_rate =
       drive_.rolling_radius_m * (rates->right - rates->left) / drive_.effective_track_m;
@@ -54,9 +58,8 @@ Report WheelOdometry::Process(const models::Measurement& measurement) {
   X_WB_.p += R * (Gamma(1, w * dt) * v_B) * dt;
   X_WB_.R = R * Exp(w * dt);
   v_WB_ = X_WB_.R * v_B;
-  t_ns_ = measurement.valid_ns;
+  t_ns_ = to_ns;
   report.propagated = true;
-  return report;
 }
 
 std::optional<Estimate> WheelOdometry::Belief() const {

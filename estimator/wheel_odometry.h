@@ -6,10 +6,11 @@
 namespace reckon::estimator {
 
 /// Planar odometry from wheel encoders alone: speed ρ(ω_l + ω_r)/2 and yaw rate ρ(ω_r − ω_l)/track,
-/// each mean held since the last sample. Height and tilt stay the prior's. It has no covariance.
+/// each mean held since the last sample (for no more than `kLongestGap`). Height and tilt stay the
+/// prior's. It has no covariance.
 class WheelOdometry final : public Estimator {
  public:
-  /// Throws std::invalid_argument if the suite has no wheels.
+  /// Throws std::invalid_argument for what CheckDrive refuses and a track that is not positive.
   explicit WheelOdometry(const Setup& setup);
 
   void Start(const Prior& prior) override;
@@ -17,6 +18,8 @@ class WheelOdometry final : public Estimator {
   std::optional<Estimate> Belief() const override;
 
  private:
+  void Move(models::TimeNs to_ns, const models::EncoderSample& sample, Report& report);
+
   models::Suite suite_;
   models::WheelDrive drive_;
   bool started_ = false;

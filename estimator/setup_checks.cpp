@@ -1,0 +1,64 @@
+#include "reckon/estimator/setup_checks.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace reckon::estimator {
+namespace {
+
+void Require(bool condition, const std::string& sentence) {
+  if (!condition) throw std::invalid_argument(sentence);
+}
+
+void CheckSide(const std::vector<int>& entries, const std::string& side) {
+  Require(!entries.empty(), "the drive has no " + side + " wheel");
+  for (const int entry : entries) {
+    Require(entry >= 0 && entry < models::kMaxEncoders,
+            "the drive's " + side + " wheel " + std::to_string(entry) + " is no encoder's entry");
+  }
+}
+
+}  // namespace
+
+void CheckSetup(const Setup& setup) {
+  for (const NoiseField& field : NoiseFields()) {
+    const double value = setup.noise.*field.member;
+    Require(std::isfinite(value) && value >= 0.0,
+            std::string(field.name) + " must be finite and not negative");
+  }
+  Require(std::isfinite(setup.gravity_m_s2) && setup.gravity_m_s2 > 0.0,
+          "gravity_m_s2 must be positive");
+  const double rest = setup.initialisation.static_duration_s;
+  Require(setup.initialisation.kind != InitialisationKind::kStatic ||
+              (std::isfinite(rest) && rest > 0.0),
+          "static_duration_s must be positive");
+  if (setup.suite.wheels) CheckDrive(setup.suite);
+}
+
+void CheckDrive(const models::Suite& suite) {
+  Require(suite.wheels.has_value(), "this estimator needs wheels, and the suite has none");
+  const models::WheelDrive& drive = *suite.wheels;
+  CheckSide(drive.left, "left");
+  CheckSide(drive.right, "right");
+  Require(std::isfinite(drive.rolling_radius_m) && drive.rolling_radius_m > 0.0,
+          "rolling_radius_m must be positive");
+  const auto id = suite.Find(drive.encoders);
+  Require(id && suite.sensors[*id].kind == models::SensorKind::kEncoders,
+          "the drive's encoders `" + drive.encoders + "` are no encoders of the suite");
+}
+
+void CheckPrior(const Prior& prior) {
+  const ErrorCovariance& P = prior.covariance;
+  Require(prior.X_WB.R.allFinite() && prior.X_WB.p.allFinite() && prior.v_WB.allFinite() &&
+              prior.w_WB_B.allFinite() && prior.gyro_bias_rad_s.allFinite() &&
+              prior.accel_bias_m_s2.allFinite() && P.allFinite(),
+          "the prior has a number that is not finite");
+  Require(prior.X_WB.R.isUnitary(1e-9) && prior.X_WB.R.determinant() > 0.0,
+          "the prior's orientation is not a rotation");
+  Require(P.diagonal().minCoeff() >= 0.0 &&
+              (P - P.transpose()).cwiseAbs().maxCoeff() <= 1e-9 * P.cwiseAbs().maxCoeff(),
+          "the prior's covariance is not one");
+}
+
+}  // namespace reckon::estimator

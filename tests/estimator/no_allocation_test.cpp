@@ -1,0 +1,89 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <new>
+
+#include "estimator/simulated_drive.h"
+
+namespace {
+/// Allocations of this thread since it was last set to zero.
+thread_local long allocations = 0;
+
+void* Counted(std::size_t size) {
+  ++allocations;
+  void* memory = std::malloc(size);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+}  // namespace
+
+// The whole test program counts; an aligned variant isn't used by anything in a step.
+void* operator new(std::size_t size) { return Counted(size); }
+void* operator new[](std::size_t size) { return Counted(size); }
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete[](void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete[](void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace reckon::estimator {
+namespace {
+
+using testing_estimator::kMs;
+using testing_estimator::Make;
+using testing_estimator::Measurement;
+using testing_estimator::TimeNs;
+
+TEST(NoAllocation, TheCounterCounts) {
+  allocations = 0;
+  delete new int(1);
+  EXPECT_EQ(allocations, 1);
+  const Eigen::MatrixXd dynamic(30, 30);
+  EXPECT_GE(allocations, 1) << "Eigen's allocations pass through here or malloc";
+}
+
+/// Everything that can come in: good, waiting, late, broken, after a gap, saturated.
+std::vector<Measurement> Everything(const estimator::Setup& setup) {
+  std::vector<Measurement> all;
+  testing_estimator::SimulatedDrive drive(setup, 7);
+  for (int i = 1; i <= 1000; ++i) {
+    Measurement imu = drive.Advance();
+    if (i > 500 && i < 540) continue;  // a dropout
+    auto& sample = std::get<models::ImuSample>(imu.sample);
+    sample.accel_saturated = i % 50 == 0;
+    if (i % 77 == 0) sample.gyro_rad_s.x() = std::nan("");
+    const TimeNs t = imu.valid_ns;
+    if (i % 4 == 0) all.push_back(testing_estimator::WheelsAt(t + (i % 3 - 1) * 4 * kMs, 1, 2));
+    if (i % 10 == 0) all.push_back(drive.Velocity(0.02));
+    if (i % 40 == 0) all.push_back(testing_estimator::VelocityAt(t, {100, 0, 0}));
+    if (i % 60 == 0) all.push_back(testing_estimator::WheelsAt(t - 50 * kMs, 1, 1));
+    all.push_back(imu);
+  }
+  return all;
+}
+
+TEST(NoAllocation, InAnyStepOfAnyEstimator) {
+  for (const auto kind : {InitialisationKind::kPrior, InitialisationKind::kStatic}) {
+    for (const auto action : {GateAction::kReject, GateAction::kInflate}) {
+      auto setup = testing_estimator::TestSetup();
+      setup.gate.action = action;
+      setup.initialisation = {kind, 0.1};
+      const std::vector<Measurement> all = Everything(setup);
+      for (const RegistryEntry& entry : Registry()) {
+        auto estimator = Make(std::string(entry.name), setup);
+        double sum = 0.0;
+        allocations = 0;
+        for (const Measurement& measurement : all) {
+          const Report report = estimator->Process(measurement);
+          const auto belief = estimator->Belief();
+          sum += static_cast<double>(report.corrections().size()) + (belief ? belief->v_WB.x() : 0);
+        }
+        const long counted = allocations;
+        EXPECT_EQ(counted, 0) << entry.name;
+        EXPECT_TRUE(std::isfinite(sum));
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace reckon::estimator
