@@ -40,6 +40,9 @@ estimator::Setup MakeSetup(const EstimatorConfig& config, const InitialConfig& i
     if (const auto id = nominal.Find(sensor)) {
       models::Pose& X_BS = setup.suite.sensors[*id].X_BS;
       X_BS = Misplaced(X_BS, error);
+      // Wheels are used in the drive's frame, not in that of their encoders.
+      auto& wheels = setup.suite.wheels;
+      if (wheels && wheels->encoders == sensor) wheels->X_BS = Misplaced(wheels->X_BS, error);
     }
   }
   setup.noise = config.noise;
