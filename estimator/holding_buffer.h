@@ -27,7 +27,7 @@ class HoldingBuffer {
 
   /// The earliest; there must be one.
   models::Measurement Take() {
-    const models::Measurement first = held_[0];
+    models::Measurement first = held_[0];
     for (std::size_t i = 1; i < size_; ++i) held_[i - 1] = held_[i];
     --size_;
     return first;
