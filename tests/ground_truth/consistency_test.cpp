@@ -30,7 +30,8 @@ TEST(ChiSquareMeanBounds, EqualPublishedTables) {
 }
 
 /// A run with white errors and innovations whose covariances claim `claimed` times their variance.
-Track HonestyRun(unsigned seed, double claimed_state, double claimed_innovation, double seconds = 60.0) {
+Track HonestyRun(unsigned seed, double claimed_state, double claimed_innovation,
+                 double seconds = 60.0) {
   std::mt19937_64 generator(seed);
   std::normal_distribution<double> normal;
   const auto draw = [&] {
@@ -104,7 +105,8 @@ TEST(Consistency, RaisesNoMoreFalseAlarmsThanAsked) {
 }
 
 TEST(Consistency, FailsAFilterThatClaimsTooMuch) {
-  const auto noise = Failures(HonestyRun(1, 1.0, 0.1), 1e-6);  // innovation variances a tenth of the truth
+  const auto noise =
+      Failures(HonestyRun(1, 1.0, 0.1), 1e-6);  // innovation variances a tenth of the truth
   EXPECT_EQ(noise, std::vector<std::string>{"nis wheels"});
   const auto state = Failures(HonestyRun(1, 0.05, 1.0), 1e-6);
   EXPECT_FALSE(AnyStartsWith(state, "nis"));
