@@ -1,93 +1,17 @@
 #include "reckon/harness/yaml_load.h"
 
-#include <yaml-cpp/yaml.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/parser.h>
 
 #include <charconv>
 #include <fstream>
-#include <iterator>
-#include <set>
+#include <sstream>
 #include <system_error>
+
+#include "reckon/harness/yaml_tree.h"
 
 namespace reckon::harness {
 namespace {
-
-/// Makes our tree from yaml-cpp's.
-class Converter {
- public:
-  Converter(const Location& whole, int layer) : whole_(whole), layer_(layer) {}
-
-  YamlNode Convert(const YAML::Node& node, int depth) {
-    constexpr int kDeepest = 64, kMost = 100'000;
-    YamlNode out;
-    out.at = Where(node.Mark());
-    out.layer = layer_;
-    if (depth > kDeepest) Fail(out.at, "more than 64 levels deep");
-    if (++count_ > kMost) Fail(out.at, "more than 100000 values");
-    switch (node.Type()) {
-      case YAML::NodeType::Scalar:
-        out.type = YamlNode::Type::kScalar;
-        out.text = node.Scalar();
-        out.quoted = node.Tag() == "!";
-        RefuseTag(node, out.at);
-        if (KindOf(out) == ScalarKind::kNull) out.type = YamlNode::Type::kNull;
-        break;
-      case YAML::NodeType::Sequence:
-        out.type = YamlNode::Type::kList;
-        RefuseTag(node, out.at);
-        for (const auto& item : node) out.items.push_back(Convert(item, depth + 1));
-        break;
-      case YAML::NodeType::Map:
-        ConvertMap(node, depth, out);
-        break;
-      case YAML::NodeType::Null:
-      case YAML::NodeType::Undefined:
-        break;
-    }
-    return out;
-  }
-
- private:
-  Location Where(const YAML::Mark& mark) const {
-    if (mark.is_null() || whole_.source->starts_with("--")) return whole_;
-    return {whole_.source, mark.line + 1, mark.column + 1};
-  }
-
-  static void RefuseTag(const YAML::Node& node, const Location& at) {
-    const std::string& tag = node.Tag();
-    if (!tag.empty() && tag != "?" && tag != "!")
-      Fail(at, "tags such as '" + Shown(tag) + "' have no meaning here");
-  }
-
-  void ConvertMap(const YAML::Node& node, int depth, YamlNode& out) {
-    out.type = YamlNode::Type::kMap;
-    RefuseTag(node, out.at);
-    std::set<std::string> seen;
-    for (const auto& entry : node) {
-      const Location at = Where(entry.first.Mark());
-      if (!entry.first.IsScalar()) Fail(at, "expected a word as key, found something else");
-      const std::string key = entry.first.Scalar();
-      if (!seen.insert(key).second) {
-        Fail(at, "key '" + Shown(key) + "' is written twice; the first is at line " +
-                     std::to_string(FirstLine(out, key)));
-      }
-      YamlNode value = Convert(entry.second, depth + 1);
-      if (value.type == YamlNode::Type::kNull) value.at = at;  // yaml-cpp puts it on the next token
-      out.keys.push_back({key, at});
-      out.items.push_back(std::move(value));
-    }
-  }
-
-  static int FirstLine(const YamlNode& map, const std::string& key) {
-    for (const auto& known : map.keys) {
-      if (known.name == key) return known.at.line;
-    }
-    return 0;
-  }
-
-  Location whole_;
-  int layer_;
-  int count_ = 0;
-};
 
 /// Length of the well-formed UTF-8 character at the start of `text`; 0 if there is none.
 std::size_t CharacterLength(std::string_view text) {
@@ -126,18 +50,16 @@ void RefuseBadCharacters(std::string_view text, const Location& whole) {
 YamlNode ParseYaml(const std::string& text, const std::string& source, int layer) {
   const Location whole{std::make_shared<const std::string>(source), 0, 0};
   RefuseBadCharacters(text, whole);
-  std::vector<YAML::Node> documents;
+  YamlTreeBuilder builder(whole, layer);
   try {
-    documents = YAML::LoadAll(text);
-    if (documents.size() > 1) Fail(whole, "expected one YAML document, found several");
-    if (documents.empty()) Fail(whole, "the file is empty");
-    return Converter(whole, layer).Convert(documents.front(), 0);
+    std::istringstream stream(text);
+    YAML::Parser parser(stream);
+    if (!parser.HandleNextDocument(builder)) Fail(whole, "the file is empty");
+    // Not YAML::LoadAll: behind a stray comma it finds documents without end.
+    parser.HandleNextDocument(builder);
+    return builder.Take();
   } catch (const YAML::Exception& error) {
-    Location at = whole;
-    if (!error.mark.is_null() && !source.starts_with("--")) {
-      at = {whole.source, error.mark.line + 1, error.mark.column + 1};
-    }
-    Fail(at, "not YAML: " + error.msg);
+    Fail(builder.Where(error.mark), "not YAML: " + error.msg);
   }
 }
 
