@@ -12,6 +12,10 @@
 namespace reckon::ground_truth {
 namespace {
 
+/// At exit the library would close what is open once more, and crashes over a file that it could
+/// not write to its end. We close what we open. This must come before any other call of HDF5.
+const herr_t kNoCleanupAtExit = H5dont_atexit();
+
 /// Keeps the first description, which is the innermost when the stack is walked upwards.
 herr_t KeepFirst(unsigned n, const H5E_error2_t* error, void* text) {
   if (n == 0 && error->desc != nullptr) *static_cast<std::string*>(text) = error->desc;
