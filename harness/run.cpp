@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -118,14 +119,20 @@ std::string ReadFile(const fs::path& path) {
 }
 
 /// A finished result of the same resolved scenario, as it was; nothing if there is none.
-std::optional<RunResult> Finished(const fs::path& folder, const std::string& scenario,
-                                  std::uint64_t seed, const std::string& resolved) {
-  if (!IsFinishedResult(folder, scenario, seed)) return std::nullopt;
+std::optional<RunResult> Finished(const fs::path& folder, const Scenario& scenario,
+                                  const std::string& name, const std::string& resolved) {
+  if (!IsFinishedResult(folder, name, scenario.seed)) return std::nullopt;
   if (ReadFile(folder / kResolved) != resolved) return std::nullopt;
-  const auto json = nlohmann::json::parse(ReadFile(folder / "run.json"), nullptr, false);
-  if (!json.is_object() || json.value("outcome", "") != "finished") return std::nullopt;
-  RunResult result = ScoreResults(folder, {});
-  result.resumed = true;
+  std::vector<std::string> sensors;
+  for (const auto& [sensor, config] : scenario.sensors) sensors.push_back(sensor);
+  auto result = ReadRunJson(ReadFile(folder / "run.json"), ReadFile(folder / "metrics.json"),
+                            ground_truth::MetricCatalogue(sensors, scenario.score));
+  if (!result) return std::nullopt;
+  result->scenario = name;
+  result->seed = scenario.seed;
+  result->folder = folder;
+  result->expected_exit_code = scenario.expect.exit_code;
+  result->resumed = true;
   return result;
 }
 
@@ -152,11 +159,11 @@ fs::path FolderOf(const fs::path& out, const std::string& name, std::uint64_t se
 }  // namespace
 
 int RunResult::exit_code() const {
-  if (outcome != Outcome::kFinished) return 3;
-  for (const Verdict& verdict : verdicts) {
-    if (!verdict.holds) return 1;
-  }
-  return 0;
+  const bool hold = std::all_of(verdicts.begin(), verdicts.end(),
+                                [](const Verdict& verdict) { return verdict.holds; });
+  const int code = outcome != Outcome::kFinished ? 3 : hold ? 0 : 1;
+  if (code == expected_exit_code.value_or(0)) return 0;
+  return code == 0 ? 1 : code;
 }
 
 RunResult RunScenario(const Scenario& scenario, const std::string& name,
@@ -166,9 +173,10 @@ RunResult RunScenario(const Scenario& scenario, const std::string& name,
   result.scenario = name;
   result.seed = scenario.seed;
   result.folder = FolderOf(options.out, name, scenario.seed);
+  result.expected_exit_code = scenario.expect.exit_code;
   const std::string resolved = WriteScenario(scenario);
   if (options.resume) {
-    if (auto finished = Finished(result.folder, name, scenario.seed, resolved)) return *finished;
+    if (auto finished = Finished(result.folder, scenario, name, resolved)) return *finished;
   }
   const Robot robot = LoadRobot(scenario);
   ResultsFolder folder(result.folder, name, scenario.seed, options.force);
@@ -200,8 +208,12 @@ RunResult ScoreResults(const fs::path& folder, const std::vector<std::string>& o
     throw std::invalid_argument("not a result folder: it has no run.json and resolved.yaml");
   }
   const Scenario scenario = ReadScenario(resolved.string(), overrides);
+  if (!scenario.record.truth || !scenario.record.estimates) {
+    throw std::invalid_argument("its recording lacks truth or estimates (`record:`)");
+  }
   const Robot robot = LoadRobot(scenario);
   RunResult result;
+  result.expected_exit_code = scenario.expect.exit_code;
   result.scenario = run.value("scenario", "");
   result.seed = scenario.seed;
   result.folder = folder;

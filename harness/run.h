@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,10 +45,12 @@ struct RunResult {
   std::string failure;  ///< why it failed
   std::vector<EstimatorScore> scores;
   std::vector<Verdict> verdicts;
+  std::optional<int> expected_exit_code;  ///< `expect: exit_code:`
   Costs costs;
   bool resumed = false;  ///< read back, not run
 
-  /// 0, 1 or 3 as the command line means them.
+  /// 0, 1 or 3 as the command line means them. A run that had to end with another code than 0 and
+  /// did is one whose expectations hold.
   int exit_code() const;
 };
 
@@ -56,7 +59,8 @@ struct RunResult {
 /// std::invalid_argument if the robot, world or an estimator can't be built.
 RunResult RunScenario(const Scenario& scenario, const std::string& name, const RunOptions& options);
 
-/// Scores the recording in a result folder again and replaces its metrics.json.
+/// Scores the recording in a result folder again and replaces its metrics.json. Throws
+/// std::invalid_argument if `folder` is no result or its recording lacks truth or estimates.
 RunResult ScoreResults(const std::filesystem::path& folder,
                        const std::vector<std::string>& overrides);
 

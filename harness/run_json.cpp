@@ -2,7 +2,9 @@
 
 #include <sys/utsname.h>
 
+#include <limits>
 #include <string_view>
+#include <utility>
 
 #include "reckon/build_info.h"
 #include "reckon/sim/world.h"
@@ -68,6 +70,20 @@ ordered_json EstimatorsJson(const RunResult& result) {
   return estimators;
 }
 
+/// The metrics of `catalogue` with the values that ToJson wrote.
+ground_truth::Metrics ReadMetrics(const ordered_json& scores,
+                                  const ground_truth::Metrics& catalogue) {
+  ground_truth::Metrics metrics;
+  const bool valid = scores.at("valid");
+  for (ground_truth::Metric metric : catalogue.list()) {
+    const ordered_json& value = scores.at(metric.name);
+    metric.value = value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+    metric.applies = !value.is_null() || !valid;
+    metrics.Add(std::move(metric));
+  }
+  return metrics;
+}
+
 }  // namespace
 
 ordered_json MetricsJson(const RunResult& result) {
@@ -95,6 +111,24 @@ ordered_json RunJson(const RunResult& result, const std::string& command) {
                        {"costs", CostsJson(result.costs)},
                        {"expectations", VerdictsJson(result)}};
   return json;
+}
+
+std::optional<RunResult> ReadRunJson(const std::string& run_text, const std::string& metrics_text,
+                                     const ground_truth::Metrics& catalogue) try {
+  const auto run = ordered_json::parse(run_text);
+  const auto metrics = ordered_json::parse(metrics_text);
+  if (run.at("outcome") != OutcomeName(Outcome::kFinished)) return std::nullopt;
+  RunResult result;
+  for (const auto& verdict : run.at("expectations")) {
+    result.verdicts.push_back(
+        {verdict.at("expectation"), verdict.at("holds"), verdict.at("detail")});
+  }
+  for (const auto& [name, scores] : metrics.at("estimators").items()) {
+    result.scores.push_back({name, ReadMetrics(scores, catalogue)});
+  }
+  return result;
+} catch (const nlohmann::json::exception&) {
+  return std::nullopt;
 }
 
 ordered_json SummaryJson(const RunResult& result, const std::string& command) {

@@ -84,6 +84,12 @@ std::string Verdicts(const RunResult& result, const std::string& command, bool c
         fmt::format("  {} {} of {} expectations hold\n",
                     paint(all ? "32" : "31", all ? "ok" : "not ok"), held, result.verdicts.size());
   }
+  if (result.expected_exit_code) {
+    const bool met = result.exit_code() == 0;
+    text +=
+        fmt::format("  {} this run must end with exit code {}\n",
+                    paint(met ? "32" : "31", met ? "ok" : "FAILED"), *result.expected_exit_code);
+  }
   if (result.exit_code() != 0) text += fmt::format("  repeat it with: {}\n", command);
   return text;
 }
