@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 
@@ -30,13 +31,19 @@ struct ListArguments {
   bool json = false;
 };
 
+/// The parser itself takes -1 for the largest of all numbers.
+std::string WholeNumber(const std::string& text) {
+  const bool digits = text.find_first_not_of("0123456789") == std::string::npos;
+  return digits ? "" : "expected a whole number of at least 0, found '" + text + "'";
+}
+
 void AddRun(CLI::App& app, RunArguments& run) {
   CLI::App* command = app.add_subcommand("run", "Run scenarios, score them, write their results");
   command->add_option("scenario", run.scenarios, "Scenario files")->required();
   command->add_option("--set", run.overrides, "Override a key: a.b=c (repeatable)")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  command->add_option("--seed", run.seed, "Another seed");
+  command->add_option("--seed", run.seed, "Another seed")->check(WholeNumber);
   command->add_option("--estimator", run.estimators, "Run only this estimator (repeatable)")
       ->type_name("NAME")
       ->allow_extra_args(false);
@@ -100,20 +107,43 @@ int Check(const CheckArguments& arguments) {
   return code;
 }
 
-/// What the parser found wrong, with the nearest subcommand when a name is unknown.
+/// What the parser found wrong, with the nearest name when a command or a flag is unknown.
+std::string ParseErrorText(const CLI::App& app, const CLI::ParseError& error,
+                           const std::vector<std::string>& arguments) {
+  std::vector<std::string> commands;
+  for (const CLI::App* command : app.get_subcommands({})) commands.push_back(command->get_name());
+  const std::string first = arguments.empty() ? "" : arguments.front();
+  if (first.empty()) return error.what();
+  if (std::find(commands.begin(), commands.end(), first) == commands.end()) {
+    return fmt::format("there is no command '{}'{}", first, DidYouMean(first, commands));
+  }
+  std::vector<std::string> flags;
+  for (const CLI::Option* option : app.get_subcommand(first)->get_options()) {
+    for (const std::string& name : option->get_lnames()) flags.push_back("--" + name);
+  }
+  for (const std::string& argument : arguments) {
+    if (argument == "--") break;
+    const std::string flag = argument.substr(0, argument.find('='));
+    if (!flag.starts_with("--") || std::find(flags.begin(), flags.end(), flag) != flags.end()) {
+      continue;
+    }
+    return fmt::format("'reckon {}' has no flag '{}'{}", first, flag, DidYouMean(flag, flags));
+  }
+  return error.what();
+}
+
 int ReportParseError(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
   if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-  fmt::print(stderr, "reckon: {}\n", error.what());
-  std::vector<std::string> names;
-  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-  const bool named = argc > 1 && argv[1][0] != '-';
-  if (named && std::find(names.begin(), names.end(), argv[1]) == names.end()) {
-    if (const auto nearest = Nearest(argv[1], names)) {
-      fmt::print(stderr, "did you mean 'reckon {}'?\n", *nearest);
-    }
-  }
-  fmt::print(stderr, "'reckon --help' lists the commands\n");
+  fmt::print(stderr, "reckon: {}\n'reckon --help' lists the commands\n",
+             ParseErrorText(app, error, {argv + std::min(argc, 1), argv + argc}));
   return kExitBadInput;
+}
+
+/// Hands what was printed to the system; a full disk must not pass for success.
+int FlushResults(int code) {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return code;
+  fmt::print(stderr, "reckon: can't write to standard output\n");
+  return code == kExitBadInput ? code : int{kExitRunFailed};
 }
 
 }  // namespace
@@ -131,13 +161,14 @@ int RunCommandLine(int argc, char** argv) {
   AddScore(app, score);
   AddCheck(app, check);
   AddList(app, list);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that hits its limit is an error, as a full disk is
   try {
     app.parse(argc, argv);
-    if (app.got_subcommand("run")) return RunCommand(run);
-    if (app.got_subcommand("score")) return ScoreCommand(score);
-    if (app.got_subcommand("check")) return Check(check);
-    fmt::print("{}", list.json ? ListJson() : ListText(list.what));
-    return kExitHolds;
+    if (app.got_subcommand("run")) return FlushResults(RunCommand(run));
+    if (app.got_subcommand("score")) return FlushResults(ScoreCommand(score));
+    if (app.got_subcommand("check")) return FlushResults(Check(check));
+    fmt::print("{}", list.json ? ListJson(list.what) : ListText(list.what));
+    return FlushResults(kExitHolds);
   } catch (const CLI::ParseError& error) {
     return ReportParseError(app, error, argc, argv);
   } catch (const InputError& error) {

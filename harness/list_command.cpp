@@ -115,24 +115,32 @@ std::string SectionText(const Section& section) {
   return text;
 }
 
-}  // namespace
-
-std::string ListText(const std::string& what) {
-  std::string text;
+/// The section called `what`, or all.
+std::vector<Section> Wanted(const std::string& what) {
+  std::vector<Section> all = Sections();
+  if (what.empty()) return all;
   std::vector<std::string> names;
-  for (const Section& section : Sections()) {
+  for (const Section& section : all) {
+    if (section.name == what) return {section};
     names.push_back(section.name);
-    if (!what.empty() && what != section.name) continue;
-    text += (text.empty() ? "" : "\n") + SectionText(section);
   }
-  if (!text.empty()) return text;
   throw InputError(fmt::format("reckon list: there is no '{}'{}; there are {}", what,
                                DidYouMean(what, names), fmt::join(names, ", ")));
 }
 
-std::string ListJson() {
+}  // namespace
+
+std::string ListText(const std::string& what) {
+  std::string text;
+  for (const Section& section : Wanted(what)) {
+    text += (text.empty() ? "" : "\n") + SectionText(section);
+  }
+  return text;
+}
+
+std::string ListJson(const std::string& what) {
   nlohmann::ordered_json all;
-  for (const Section& section : Sections()) {
+  for (const Section& section : Wanted(what)) {
     auto& entries = all[section.name] = nlohmann::ordered_json::array();
     for (const Entry& entry : section.entries) {
       nlohmann::ordered_json item = {{"name", entry.name}, {"description", entry.description}};

@@ -10,6 +10,6 @@ namespace reckon::harness {
 std::string ListText(const std::string& what = {});
 
 /// All sections as JSON: {"robots": [{"name": …, "description": …}, …], …}.
-std::string ListJson();
+std::string ListJson(const std::string& what = {});
 
 }  // namespace reckon::harness

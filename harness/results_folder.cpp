@@ -96,10 +96,16 @@ void ResultsFolder::Publish() {
 
 void WriteWholeFile(const fs::path& path, std::string_view text) {
   const fs::path part = path.string() + fmt::format(".part.{}", ::getpid());
-  WriteBytes(part, text);
-  std::error_code error;
+  std::error_code error, ignored;
+  try {
+    WriteBytes(part, text);
+  } catch (const OutputError&) {
+    fs::remove(part, ignored);
+    throw;
+  }
   fs::rename(part, path, error);
   if (error) {
+    fs::remove(part, ignored);
     throw OutputError(
         fmt::format("can't rename {} to {}: {}", part.string(), path.string(), error.message()));
   }

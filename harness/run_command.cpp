@@ -209,6 +209,12 @@ int RunCommand(const RunArguments& arguments) {
 }
 
 int ScoreCommand(const ScoreArguments& arguments) {
+  for (const std::string& text : arguments.overrides) {
+    if (text.starts_with("score.") || text.starts_with("expect.")) continue;
+    throw InputError(fmt::format(
+        "--set {}: error: a recording can't change; expected a key below 'score.' or 'expect.'",
+        text));
+  }
   std::vector<Job> jobs;
   for (const auto& folder : arguments.results) {
     Job& job = jobs.emplace_back();
