@@ -82,7 +82,7 @@ struct Hermite {
 
 TerrainTable::TerrainTable(const Waves& waves, double half_size_m, std::uint64_t seed)
     : nodes_(2 * static_cast<int>(std::ceil(half_size_m / kSpacing)) + 1),
-      half_size_m_(kSpacing * ((nodes_ - 1) / 2)) {
+      half_size_m_(kSpacing * (nodes_ - 1) / 2) {
   const auto drawn = DrawWaves(waves, seed);
   // cos(kx x + ky y + φ) = cos(kx x + φ) cos(ky y) − sin(kx x + φ) sin(ky y): the table is a
   // product of two thin matrices.
