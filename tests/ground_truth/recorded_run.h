@@ -39,12 +39,16 @@ inline std::string Bytes(const std::filesystem::path& path) {
 inline RecordingPlan SmallPlan() {
   RecordingPlan plan;
   plan.sensors.resize(3);
-  plan.sensors[0].sensor = {"imu", models::SensorKind::kImu, {}, 5'000'000};
-  plan.sensors[0].sensor.X_BS.R = Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitX()).matrix();
-  plan.sensors[0].sensor.X_BS.p = {0.1, 0.2, 0.3};
-  plan.sensors[1] = {{"encoders", models::SensorKind::kEncoders, {}, 20'000'000},
-                     {"left", "right"}};
-  plan.sensors[2].sensor = {"dvl", models::SensorKind::kBodyVelocity, {}, 50'000'000};
+  models::MountedSensor& imu = plan.sensors[0].sensor;
+  imu.name = "imu";
+  imu.period_ns = 5'000'000;
+  imu.X_BS.R = Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitX()).matrix();
+  imu.X_BS.p = {0.1, 0.2, 0.3};
+  plan.sensors[1].sensor.name = "encoders";
+  plan.sensors[1].sensor.kind = models::SensorKind::kEncoders;
+  plan.sensors[1].channels = {"left", "right"};
+  plan.sensors[2].sensor.name = "dvl";
+  plan.sensors[2].sensor.kind = models::SensorKind::kBodyVelocity;
   plan.estimators = {"riekf", "odometry"};
   plan.wheels = {"left", "right"};
   plan.attributes = {{"resolved_scenario", "schema: 1\nname: ünïcode\n"}};

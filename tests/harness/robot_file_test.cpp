@@ -82,9 +82,12 @@ TEST(RobotFile, HuskysNumbersFitTogether) {
   const Robot robot = Load("robot: husky\n");
   const models::UrdfRobot urdf = models::UrdfRobot::FromFile(robot.simulated.urdf_path);
   const sim::SkidSteerConfig& drive = robot.simulated.skid_steer;
-  // Rolling radius R − δ/3 with the tyre's deflection δ = m g / (4 k_n).
+  // On flat ground the rolling radius is R − δ/3 with the tyre's deflection δ = m g / (4 k_n);
+  // rough ground takes up to another percent of the distance. The nominal one lies between.
   const double deflection = urdf.TotalMass() * 9.81 / (4 * drive.normal_stiffness_n_m);
-  EXPECT_NEAR(robot.nominal.wheels->rolling_radius_m, drive.wheel_radius_m - deflection / 3, 1e-4);
+  const double flat = drive.wheel_radius_m - deflection / 3;
+  EXPECT_LE(robot.nominal.wheels->rolling_radius_m, flat);
+  EXPECT_GE(robot.nominal.wheels->rolling_radius_m, 0.99 * flat);
   // 1024 cycles a motor turn, gear 78.71, four counts a cycle; the vendor's 78 000 cycles a metre
   // are within half a percent.
   const auto& encoders =
