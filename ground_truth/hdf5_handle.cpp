@@ -83,6 +83,7 @@ void WriteAttribute(hid_t object, const std::string& name, const std::string& te
 void WriteAttribute(hid_t object, const std::string& name, const std::vector<std::string>& texts) {
   if (texts.empty()) return;
   std::vector<const char*> data;
+  data.reserve(texts.size());
   for (const auto& text : texts) data.push_back(text.c_str());
   Write(object, name, TextType().get(), Vector(data.size()), data.data());
 }

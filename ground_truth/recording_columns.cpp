@@ -1,5 +1,7 @@
 #include "reckon/ground_truth/recording_columns.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <utility>
 
@@ -18,7 +20,8 @@ void Add(Columns& columns, std::string name, Type type, std::string unit, std::s
 void AddVector(Columns& columns, const std::string& name, const std::string& suffix,
                const std::string& unit, const std::string& frame, const std::string& text) {
   for (const char axis : {'x', 'y', 'z'}) {
-    columns.push_back({name + "_" + axis + "_" + suffix, Type::kFloat64, unit, frame, text});
+    columns.push_back(
+        {fmt::format("{}_{}_{}", name, axis, suffix), Type::kFloat64, unit, frame, text});
   }
 }
 
@@ -27,7 +30,8 @@ void AddMatrix(Columns& columns, const std::string& name, const std::string& suf
                const std::string& unit, const std::string& frame, const std::string& text) {
   for (const char row : {'x', 'y', 'z'}) {
     for (const char column : {'x', 'y', 'z'}) {
-      columns.push_back({name + "_" + row + column + suffix, Type::kFloat64, unit, frame, text});
+      columns.push_back(
+          {fmt::format("{}_{}{}{}", name, row, column, suffix), Type::kFloat64, unit, frame, text});
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "reckon/ground_truth/hdf5_handle.h"
 #include "reckon/ground_truth/record_codec.h"
@@ -26,12 +27,13 @@ Cursor<Row> Nothing() {
 template <class Row, class Decode>
 Cursor<Row> Over(std::shared_ptr<const void> keep, std::shared_ptr<TableReader> table,
                  Decode decode) {
-  return Cursor<Row>([keep, table, decode]() mutable -> std::optional<Row> {
-    const std::byte* row = table->Next();
-    if (row == nullptr) return std::nullopt;
-    RowDecoder decoder(row);
-    return decode(decoder);
-  });
+  return Cursor<Row>(
+      [keep = std::move(keep), table = std::move(table), decode]() mutable -> std::optional<Row> {
+        const std::byte* row = table->Next();
+        if (row == nullptr) return std::nullopt;
+        RowDecoder decoder(row);
+        return decode(decoder);
+      });
 }
 
 /// Merges the sensors' tables by the measurements' order.
@@ -168,7 +170,7 @@ class RecordingReader::Impl {
     std::vector<char*> raw(static_cast<std::size_t>(H5Sget_simple_extent_npoints(space.get())));
     if (H5Aread(attribute.get(), type.get(), raw.data()) < 0)
       ThrowHdf5(path_, "can't read " + name);
-    const std::vector<std::string> texts(raw.begin(), raw.end());
+    std::vector<std::string> texts(raw.begin(), raw.end());
     H5Dvlen_reclaim(type.get(), space.get(), H5P_DEFAULT, raw.data());
     return texts;
   }
