@@ -108,6 +108,7 @@ int Spawn(const std::vector<std::string>& command, const std::filesystem::path& 
       &plan.attributes,
       static_cast<short>(POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP));
   std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   return posix_spawnp(&pid, arguments[0], &plan.actions, &plan.attributes, arguments.data(),
