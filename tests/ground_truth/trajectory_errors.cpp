@@ -29,7 +29,7 @@ void Make(const std::string& truth_path, const std::string& estimate_path) {
   const models::Pose start{testing::Rot(0.3, {0.1, -0.2, 1.0}), {1.0, -2.0, 0.5}};
   for (int k = 0; k < 1200; ++k) {
     const Truth truth = testing::CircleTruth(k * 50'000'000LL);
-    models::Pose error{testing::Rz(2e-5 * k), {}};
+    models::Pose error{testing::Rz(2e-5 * k), Eigen::Vector3d::Zero()};
     error.R *= testing::Rot(2e-3 * normal(generator), {1.0, 1.0, 1.0});
     models::Pose estimate = start * error * truth.X_WB;
     estimate.p =
