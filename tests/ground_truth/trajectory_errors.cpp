@@ -74,8 +74,8 @@ ordered_json Errors(const Track& track) {
     json["ape"][flags] = {{"trans_part", ToJson(errors.position_m)},
                           {"angle_deg", ToJson(errors.orientation_deg)}};
   }
-  for (const auto& [suffix, choice] :
-       {std::pair{"", PairChoice::kConsecutive}, std::pair{" --all_pairs", PairChoice::kAll}}) {
+  for (const PairChoice choice : {PairChoice::kConsecutive, PairChoice::kAll}) {
+    const std::string suffix = choice == PairChoice::kAll ? " --all_pairs" : "";
     const auto add = [&](const std::string& delta, const IndexPairs& pairs) {
       const RelativeErrors errors = RelativeError(track.samples(), pairs);
       json["rpe"]["--pairs_from_reference " + delta + suffix] = {
