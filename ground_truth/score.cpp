@@ -68,26 +68,25 @@ std::string LengthName(double length) {
   return name;
 }
 
+/// The relative errors over `pairs`, named `<prefix>_translation_…` and `<prefix>_rotation_…`.
+void AddSegments(Metrics& metrics, Samples samples, const IndexPairs& pairs,
+                 const std::string& prefix, const Unit& translation_unit, const std::string& over) {
+  const RelativeErrors errors = RelativeError(samples, pairs);
+  AddStatistics(metrics, prefix + "_translation", translation_unit, errors.translation_m,
+                "the relative position error" + over, !pairs.empty());
+  AddStatistics(metrics, prefix + "_rotation", kDegrees, errors.rotation_deg,
+                "the relative rotation error" + over, !pairs.empty());
+}
+
 void AddRelative(Metrics& metrics, Samples samples, const ScoreOptions& options) {
   for (const double length : options.rpe_m) {
-    const auto pairs = PairsByPath(samples, length, PairChoice::kAll);
-    const RelativeErrors errors = RelativeError(samples, pairs);
-    const std::string prefix = "rpe_" + LengthName(length) + "m_";
-    const std::string over = fmt::format(" over each {} m of true path", length);
-    AddStatistics(metrics, prefix + "translation", kMetresUnnamed, errors.translation_m,
-                  "the relative position error" + over, !pairs.empty());
-    AddStatistics(metrics, prefix + "rotation", kDegrees, errors.rotation_deg,
-                  "the relative rotation error" + over, !pairs.empty());
+    AddSegments(metrics, samples, PairsByPath(samples, length, PairChoice::kAll),
+                "rpe_" + LengthName(length) + "m", kMetresUnnamed,
+                fmt::format(" over each {} m of true path", length));
   }
   for (const double length : options.rpe_s) {
-    const auto pairs = PairsByTime(samples, length, PairChoice::kAll);
-    const RelativeErrors errors = RelativeError(samples, pairs);
-    const std::string prefix = "rpe_" + LengthName(length) + "s_";
-    const std::string over = fmt::format(" over each {} s", length);
-    AddStatistics(metrics, prefix + "translation", kMetres, errors.translation_m,
-                  "the relative position error" + over, !pairs.empty());
-    AddStatistics(metrics, prefix + "rotation", kDegrees, errors.rotation_deg,
-                  "the relative rotation error" + over, !pairs.empty());
+    AddSegments(metrics, samples, PairsByTime(samples, length, PairChoice::kAll),
+                "rpe_" + LengthName(length) + "s", kMetres, fmt::format(" over each {} s", length));
   }
 }
 

@@ -100,6 +100,8 @@ void Bench::EndInstant() {
   for (std::size_t i = 0; i < tested_.size(); ++i) {
     Tested& tested = tested_[i];
     const auto belief = tested.estimator->Belief();
+    double estimating_s = 0.0;  // stays the estimators': it is neither recording nor scoring
+    timer.Lap(estimating_s);
     if (!belief || belief->t_ns <= tested.recorded_ns) continue;
     if (!IsFinite(*belief)) {
       throw EstimatorFailure(fmt::format("estimator '{}' is no longer finite at t = {:.3f} s",
