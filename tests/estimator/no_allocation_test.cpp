@@ -11,7 +11,10 @@ thread_local long allocations = 0;
 
 // The whole test program counts at malloc, where operator new and Eigen's own allocator meet.
 #if defined(__SANITIZE_ADDRESS__)
-#include <sanitizer/allocator_interface.h>
+// Declared here: GCC does not install the sanitizers' own header.
+extern "C" int __sanitizer_install_malloc_and_free_hooks(
+    void (*on_malloc)(const volatile void* memory, std::size_t size),
+    void (*on_free)(const volatile void* memory));
 
 namespace {
 void OnMalloc(const volatile void* /*memory*/, std::size_t /*size*/) { ++allocations; }
