@@ -14,14 +14,14 @@ LONG = SHORT.replace("duration_s: 2", "duration_s: 100000")
 
 class Interrupt(ProgramTest):
     def start(self, *arguments):
-        """Starts the program; comes back when it has recorded something."""
+        """Starts the program; comes back when a long run has recorded something."""
         process = subprocess.Popen([PROGRAM, "run", *arguments], cwd=self.folder, text=True,
                                    env=self.environment({}), stdout=subprocess.PIPE,
                                    stderr=subprocess.PIPE)
         self.addCleanup(process.kill)
         until = time.monotonic() + 60
         while not any(path.stat().st_size > 500_000
-                      for path in self.folder.glob("out/*/*.part*/recording.h5")):
+                      for path in self.folder.glob("out/long*/*.part*/recording.h5")):
             self.assertIsNone(process.poll(), "it ended by itself")
             self.assertLess(time.monotonic(), until, "it records nothing")
             time.sleep(0.05)
