@@ -34,7 +34,7 @@ std::string Shortened(std::string text, std::size_t length) {
 
 std::string Describe(const ChildProcess::Answer& answer, const ChildProcess& child,
                      double timeout_s) {
-  const std::string text = Shortened(answer.text, 160);
+  std::string text = Shortened(answer.text, 160);
   const std::string part = text.empty() ? "" : fmt::format(" after the partial line '{}'", text);
   switch (answer.outcome) {
     case ChildProcess::Outcome::kTimeout:
