@@ -37,7 +37,7 @@ class Metrics {
   std::vector<Metric> list_;
 };
 
-/// All scores of `track`. `sensors` names the sensors by id.
+/// All scores of the whole `track`. `sensors` names the sensors by id.
 Metrics Score(const Track& track, const std::vector<std::string>& sensors,
               const ScoreOptions& options);
 

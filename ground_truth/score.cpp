@@ -172,8 +172,10 @@ void AddSensor(Metrics& metrics, const Track& track, models::SensorId id, const 
   }
 }
 
-Metrics ScoreAll(const Track& track, const std::vector<std::string>& sensors,
-                 const ScoreOptions& options) {
+}  // namespace
+
+Metrics Score(const Track& track, const std::vector<std::string>& sensors,
+              const ScoreOptions& options) {
   Metrics metrics;
   AddAbsolute(metrics, track.samples(), options.align);
   AddRelative(metrics, track.samples(), options);
@@ -184,15 +186,6 @@ Metrics ScoreAll(const Track& track, const std::vector<std::string>& sensors,
     AddSensor(metrics, track, static_cast<models::SensorId>(id), sensors[id]);
   }
   return metrics;
-}
-
-}  // namespace
-
-Metrics Score(const Track& track, const std::vector<std::string>& sensors,
-              const ScoreOptions& options) {
-  if (options.start_s <= 0.0) return ScoreAll(track, sensors, options);
-  const auto start_ns = static_cast<models::TimeNs>(std::llround(1e9 * options.start_s));
-  return ScoreAll(track.From(start_ns), sensors, options);
 }
 
 Metrics MetricCatalogue(const std::vector<std::string>& sensors, const ScoreOptions& options) {

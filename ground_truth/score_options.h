@@ -20,7 +20,7 @@ struct ScoreOptions {
   std::vector<double> rpe_m{1.0,
                             10.0};  ///< segment lengths of the relative error, metres of true path
   std::vector<double> rpe_s{10.0};  ///< windows of the relative error, seconds
-  double start_s = 0.0;             ///< nothing before this is scored
+  double start_s = 0.0;             ///< tracks lose what lies before it, then they are scored
 };
 
 }  // namespace reckon::ground_truth

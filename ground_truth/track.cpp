@@ -18,15 +18,6 @@ Eigen::Vector3d Whiten(const estimator::Correction& correction) {
   return whitened;
 }
 
-template <class Row>
-std::vector<Row> Later(const std::vector<Row>& rows, models::TimeNs start_ns) {
-  std::vector<Row> later;
-  for (const Row& row : rows) {
-    if (row.t_ns >= start_ns) later.push_back(row);
-  }
-  return later;
-}
-
 }  // namespace
 
 void Track::Add(const Truth& truth, const estimator::Estimate& estimate) {
@@ -59,12 +50,11 @@ void Track::AddRefusal(models::SensorId sensor, models::TimeNs valid_ns,
   refusals_.push_back({valid_ns, sensor, reason});
 }
 
-Track Track::From(models::TimeNs start_ns) const {
-  Track part = *this;
-  part.samples_ = Later(samples_, start_ns);
-  part.corrections_ = Later(corrections_, start_ns);
-  part.refusals_ = Later(refusals_, start_ns);
-  return part;
+void Track::DropBefore(models::TimeNs start_ns) {
+  const auto early = [start_ns](const auto& row) { return row.t_ns < start_ns; };
+  std::erase_if(samples_, early);
+  std::erase_if(corrections_, early);
+  std::erase_if(refusals_, early);
 }
 
 }  // namespace reckon::ground_truth

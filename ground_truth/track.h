@@ -60,8 +60,8 @@ class Track {
   bool has_covariance() const { return has_covariance_; }
   bool has_biases() const { return has_biases_; }
 
-  /// The part of the track from `start_ns` on.
-  Track From(models::TimeNs start_ns) const;
+  /// Forgets what lies before `start_ns`.
+  void DropBefore(models::TimeNs start_ns);
 
  private:
   std::vector<TrackSample> samples_;

@@ -45,7 +45,6 @@ bool Parse(std::string_view line, std::array<double, 8>& numbers) {
 TumWriter::TumWriter(const std::filesystem::path& path)
     : path_(path), file_(std::fopen(path.c_str(), "wb"), &std::fclose) {
   if (!file_) ThrowErrno(path_, "can't write");
-  text_.reserve(kBufferBytes + 512);
 }
 TumWriter::~TumWriter() = default;
 TumWriter::TumWriter(TumWriter&&) noexcept = default;
@@ -55,7 +54,7 @@ void TumWriter::Add(models::TimeNs t_ns, const models::Pose& X_WB) {
   Eigen::Quaterniond q(X_WB.R);
   if (q.w() < 0.0) q.coeffs() = -q.coeffs();
   const models::TimeNs magnitude = t_ns < 0 ? -t_ns : t_ns;
-  fmt::format_to(std::back_inserter(text_), FMT_COMPILE("{}{}.{:09} {} {} {} {} {} {} {}\n"),
+  fmt::format_to(fmt::appender(text_), FMT_COMPILE("{}{}.{:09} {} {} {} {} {} {} {}\n"),
                  t_ns < 0 ? "-" : "", magnitude / models::kNsPerSecond,
                  magnitude % models::kNsPerSecond, X_WB.p.x(), X_WB.p.y(), X_WB.p.z(), q.x(), q.y(),
                  q.z(), q.w());

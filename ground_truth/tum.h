@@ -1,5 +1,7 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -37,7 +39,7 @@ class TumWriter {
 
   std::filesystem::path path_;
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
-  std::string text_;
+  fmt::memory_buffer text_;
 };
 
 /// Reads such a file; lines that start with # are comments. Stamps are rounded to nanoseconds and

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "reckon/estimator/registry.h"
 #include "reckon/harness/beliefs.h"
@@ -66,6 +67,12 @@ std::vector<std::string> Bench::names() const {
 
 std::optional<estimator::Estimate> Bench::Belief(std::size_t i) const {
   return tested_[i].estimator->Belief();
+}
+
+std::map<std::string, ground_truth::Track> Bench::TakeTracks() {
+  std::map<std::string, ground_truth::Track> tracks;
+  for (Tested& tested : tested_) tracks[tested.name] = std::exchange(tested.track, {});
+  return tracks;
 }
 
 void Bench::Start(const estimator::Prior& prior) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -48,9 +49,11 @@ class Bench {
 
   /// The estimators' names in the order of the scenario, and what each is by its place there.
   std::vector<std::string> names() const;
-  const ground_truth::Track& track(std::size_t i) const { return tested_[i].track; }
   const EstimatorCost& cost(std::size_t i) const { return tested_[i].cost; }
   std::optional<estimator::Estimate> Belief(std::size_t i) const;
+
+  /// What happened so far, by estimator; the bench forgets it.
+  std::map<std::string, ground_truth::Track> TakeTracks();
 
   /// Time spent here on recording and on building the tracks: none of it is the estimators'.
   double recording_s() const { return recording_s_; }

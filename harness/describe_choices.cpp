@@ -97,6 +97,8 @@ std::span<const Choice<ground_truth::Alignment>> Choices() {
   static const std::vector<Choice<Align>> kChoices{
       {Align::kNone, "none", "as it is"},
       {Align::kFirstPose, "first_pose", "the first poses coincide"},
+      {Align::kFirstYawPosition, "first_yaw_position",
+       "yaw and position of the first poses coincide"},
       {Align::kYawPosition, "yaw_position", "least squares over yaw and position"},
       {Align::kSe3, "se3", "least squares over rotation and position"},
       {Align::kSim3, "sim3", "the same, and scale"}};

@@ -63,6 +63,7 @@ void Experiment::Step(bool first, bool poison) {
   if (recorder_ != nullptr) recorder_->Add(truth);
   timer_.Lap(costs_.recording_s);
   for (const auto& measurement : sent_) queue_.Send(measurement);
+  if (!queue_.HasArrived(truth.t_ns)) return;
   while (queue_.HasArrived(truth.t_ns)) bench_.Deliver(queue_.Take());
   timer_.Lap(costs_.estimators_s);
 }

@@ -33,7 +33,8 @@ class Experiment {
   /// ProcessFailure, or what the recorder throws.
   bool Run(const Hooks& hooks);
 
-  const Bench& bench() const { return bench_; }
+  /// What happened to each estimator; empty after the first call.
+  std::map<std::string, ground_truth::Track> TakeTracks() { return bench_.TakeTracks(); }
   const Costs& costs() const { return costs_; }
 
  private:

@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ground_truth::Track;
-using Tracks = std::map<std::string, const Track*>;
+using Tracks = std::map<std::string, Track>;
 
 constexpr const char* kRecording = "recording.h5";
 constexpr const char* kResolved = "resolved.yaml";
@@ -60,13 +60,14 @@ ground_truth::RecordingPlan PlanOf(const Scenario& scenario, const Robot& robot,
   return plan;
 }
 
-/// Scores every track and judges the expectations.
-void ScoreTracks(const Scenario& scenario, const Robot& robot, const Tracks& tracks,
-                 RunResult& result) {
+/// Scores every track from `score: start_s` on and judges the expectations.
+void ScoreTracks(const Scenario& scenario, const Robot& robot, Tracks tracks, RunResult& result) {
+  const models::TimeNs start_ns = std::llround(1e9 * scenario.score.start_s);
   const std::vector<std::string> sensors = SensorNames(robot.nominal);
   result.scores.clear();
-  for (const auto& [name, track] : tracks) {
-    result.scores.push_back({name, ground_truth::Score(*track, sensors, scenario.score)});
+  for (auto& [name, track] : tracks) {
+    track.DropBefore(start_ns);
+    result.scores.push_back({name, ground_truth::Score(track, sensors, scenario.score)});
   }
   Findings findings;
   findings.metric = [&result](const std::string& estimator,
@@ -76,11 +77,10 @@ void ScoreTracks(const Scenario& scenario, const Robot& robot, const Tracks& tra
     }
     return std::nullopt;
   };
-  const models::TimeNs start_ns = std::llround(1e9 * scenario.score.start_s);
   findings.inconsistencies = [&](const std::string& estimator, double false_alarm) {
     std::vector<std::string> complaints;
-    const Track scored = tracks.at(estimator)->From(start_ns);
-    for (const auto& test : ground_truth::CheckConsistency(scored, sensors, false_alarm)) {
+    const Track& track = tracks.at(estimator);
+    for (const auto& test : ground_truth::CheckConsistency(track, sensors, false_alarm)) {
       if (!test.holds) complaints.push_back(test.message);
     }
     return complaints;
@@ -92,23 +92,16 @@ void ScoreTracks(const Scenario& scenario, const Robot& robot, const Tracks& tra
 void WriteTrajectories(const Tracks& tracks, const ResultsFolder& folder) {
   bool truth_written = false;
   for (const auto& [name, track] : tracks) {
-    if (track->samples().empty()) continue;
+    if (track.samples().empty()) continue;
     ground_truth::TumWriter estimate(folder.File(name + ".tum"));
-    for (const auto& sample : track->samples()) estimate.Add(sample.t_ns, sample.X_WB);
+    for (const auto& sample : track.samples()) estimate.Add(sample.t_ns, sample.X_WB);
     estimate.Close();
     if (truth_written) continue;
     ground_truth::TumWriter truth(folder.File("truth.tum"));
-    for (const auto& sample : track->samples()) truth.Add(sample.t_ns, sample.X_WB_true);
+    for (const auto& sample : track.samples()) truth.Add(sample.t_ns, sample.X_WB_true);
     truth.Close();
     truth_written = true;
   }
-}
-
-Tracks TracksOf(const Bench& bench) {
-  Tracks tracks;
-  const std::vector<std::string> names = bench.names();
-  for (std::size_t i = 0; i < names.size(); ++i) tracks[names[i]] = &bench.track(i);
-  return tracks;
 }
 
 std::string ReadFile(const fs::path& path) {
@@ -189,10 +182,11 @@ RunResult RunScenario(const Scenario& scenario, const std::string& name,
   LapTimer timer;
   recorder.Close();
   timer.Lap(result.costs.recording_s);
-  const Tracks tracks = TracksOf(experiment.bench());
-  ScoreTracks(scenario, robot, tracks, result);
-  timer.Lap(result.costs.scoring_s);
+  Tracks tracks = experiment.TakeTracks();
   WriteTrajectories(tracks, folder);
+  timer.Lap(result.costs.recording_s);
+  ScoreTracks(scenario, robot, std::move(tracks), result);
+  timer.Lap(result.costs.scoring_s);
   folder.Write("metrics.json", MetricsJson(result).dump(2) + "\n");
   timer.Lap(result.costs.recording_s);
   wall.Lap(result.costs.wall_s);
@@ -219,10 +213,7 @@ RunResult ScoreResults(const fs::path& folder, const std::vector<std::string>& o
   result.folder = folder;
   result.failure = run.value("failure", "");
   if (run.value("outcome", "") != "finished") result.outcome = Outcome::kFailed;
-  const std::map<std::string, Track> recorded = ReadTracks(folder / kRecording);
-  Tracks tracks;
-  for (const auto& [name, track] : recorded) tracks[name] = &track;
-  ScoreTracks(scenario, robot, tracks, result);
+  ScoreTracks(scenario, robot, ReadTracks(folder / kRecording), result);
   WriteWholeFile(folder / "metrics.json", MetricsJson(result).dump(2) + "\n");
   return result;
 }

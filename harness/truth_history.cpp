@@ -25,12 +25,8 @@ Truth Interpolate(const Truth& a, const Truth& b, models::TimeNs t_ns) {
 std::optional<Truth> TruthHistory::At(models::TimeNs t_ns) const {
   const std::size_t first = next_ > ring_.size() ? next_ - ring_.size() : 0;
   if (next_ == 0 || t_ns < Entry(first).t_ns || t_ns > Entry(next_ - 1).t_ns) return std::nullopt;
-  std::size_t low = first;  // the newest entry that is not after t_ns lies in [low, high)
-  std::size_t high = next_;
-  while (high - low > 1) {
-    const std::size_t middle = low + (high - low) / 2;
-    (Entry(middle).t_ns <= t_ns ? low : high) = middle;
-  }
+  std::size_t low = next_ - 1;  // beliefs are a few instants old: look from the newest back
+  while (Entry(low).t_ns > t_ns) --low;
   if (Entry(low).t_ns == t_ns) return Entry(low);
   return Interpolate(Entry(low), Entry(low + 1), t_ns);
 }

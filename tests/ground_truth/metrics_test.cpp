@@ -50,9 +50,9 @@ TEST(Score, LeavesOutWhatDoesNotApplyAndStaysValid) {
 }
 
 TEST(Score, StartsWhereItIsTold) {
-  ScoreOptions options;
-  options.start_s = 50.0;
-  const Metrics metrics = Score(ShortLine(), kSensors, options);
+  Track track = ShortLine();
+  track.DropBefore(50 * models::kNsPerSecond);
+  const Metrics metrics = Score(track, kSensors, ScoreOptions());
   EXPECT_EQ(metrics.Find("estimate_count"), 51.0);
   EXPECT_NEAR(metrics.Find("ate_position_max_m").value(), 0.5, 1e-12);  // aligned at its first pose
 }

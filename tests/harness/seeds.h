@@ -21,10 +21,7 @@ inline std::map<std::string, ground_truth::Track> TracksOf(const Scenario& scena
   const Robot robot = LoadRobot(scenario);
   Experiment experiment(scenario, robot, nullptr);
   experiment.Run({});
-  std::map<std::string, ground_truth::Track> tracks;
-  const std::vector<std::string> names = experiment.bench().names();
-  for (std::size_t i = 0; i < names.size(); ++i) tracks[names[i]] = experiment.bench().track(i);
-  return tracks;
+  return experiment.TakeTracks();
 }
 
 /// Runs seeds 1 … `count` of `scenario` on two threads and hands each run's tracks to `use`, in
