@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/normal.hpp>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <stdexcept>
 
 #include "reckon/ground_truth/nis.h"
@@ -12,19 +15,25 @@
 namespace reckon::ground_truth {
 namespace {
 
+/// How far beyond its bounds a value lies: more than 1 if it does.
+double Miss(const ConsistencyTest& test) {
+  const Interval& bounds = test.bounds;
+  const bool below = test.value < bounds.lower && bounds.lower > 0.0;
+  return below ? bounds.lower / test.value : std::abs(test.value) / bounds.upper;
+}
+
 void Judge(ConsistencyTest& test, Interval bounds) {
   test.bounds = bounds;
   test.holds = bounds.Contains(test.value);
-  const double miss =
-      test.value > bounds.upper ? test.value / bounds.upper : bounds.lower / test.value;
   test.message = fmt::format("{} is {:.4g}, an honest filter gives {:.4g} to {:.4g}", test.name,
                              test.value, bounds.lower, bounds.upper);
-  if (!test.holds) test.message += fmt::format(" (off by a factor of {:.3g})", miss);
+  if (!test.holds) test.message += fmt::format(" (off by a factor of {:.3g})", Miss(test));
 }
 
 ConsistencyTest Failed(std::string name, const std::string& what) {
   ConsistencyTest test;
   test.name = std::move(name);
+  test.subject = test.name;
   test.value = std::nan("");
   test.message = test.name + ": " + what;
   return test;
@@ -51,21 +60,35 @@ bool IsEstimated(const std::vector<TrackSample>& samples, std::size_t block) {
                      [block](const TrackSample& sample) { return sample.nees.estimated[block]; });
 }
 
-/// One test with its degrees of freedom and its number of independent values.
+/// One test and the bounds that a false alarm gives it.
 struct Planned {
   ConsistencyTest test;
-  double dof, count;
+  std::function<Interval(double false_alarm)> bounds;
 };
+
+/// The interval of a normal variable about zero.
+Interval NormalBounds(double sigma, double false_alarm) {
+  const double bound = sigma * quantile(complement(boost::math::normal(), 0.5 * false_alarm));
+  return {-bound, bound};
+}
 
 void PlanNis(const Track& track, const std::vector<std::string>& sensors,
              std::vector<Planned>& plan) {
   for (std::size_t id = 0; id < sensors.size(); ++id) {
     const NisStatistics nis = NisOf(track.corrections(), static_cast<models::SensorId>(id));
     if (nis.corrections == 0) continue;
-    ConsistencyTest test;
-    test.name = "nis " + sensors[id];
-    test.value = nis.mean;
-    plan.push_back({test, nis.dof, nis.independent});
+    const double count = static_cast<double>(nis.corrections);
+    ConsistencyTest mean, whiteness;
+    mean.subject = mean.name = "nis " + sensors[id];
+    mean.value = nis.mean;
+    whiteness.subject = whiteness.name = "whiteness " + sensors[id];
+    whiteness.value = nis.lag1;
+    plan.push_back({mean, [=](double false_alarm) {
+                      return ChiSquareMeanBounds(nis.dof, count, false_alarm);
+                    }});
+    plan.push_back({whiteness, [=](double false_alarm) {
+                      return NormalBounds(1.0 / std::sqrt(count * nis.dof), false_alarm);
+                    }});
   }
 }
 
@@ -73,12 +96,15 @@ void PlanNees(const Track& track, std::vector<Planned>& plan) {
   const auto times = FixedTimes(track.samples());
   for (std::size_t block = 0; block < kNeesBlocks; ++block) {
     if (!IsEstimated(track.samples(), block)) continue;
+    const int number = static_cast<int>(block);
     for (const TrackSample* sample : times) {
       ConsistencyTest test;
-      test.name = fmt::format("nees {} at {:.3f} s", NeesBlockName(static_cast<int>(block)),
-                              models::Seconds(sample->t_ns));
+      test.subject = fmt::format("nees {}", NeesBlockName(number));
+      test.name = fmt::format("{} at {:.3f} s", test.subject, models::Seconds(sample->t_ns));
       test.value = sample->nees.value[block];
-      plan.push_back({test, static_cast<double>(NeesDof(static_cast<int>(block))), 1.0});
+      plan.push_back({test, [number](double false_alarm) {
+                        return ChiSquareMeanBounds(NeesDof(number), 1.0, false_alarm);
+                      }});
     }
   }
 }
@@ -107,8 +133,7 @@ std::vector<ConsistencyTest> CheckConsistency(const Track& track,
       tests.push_back(Failed(planned.test.name, "is not a number"));
       continue;
     }
-    Judge(planned.test, ChiSquareMeanBounds(planned.dof, planned.count,
-                                            false_alarm / static_cast<double>(plan.size())));
+    Judge(planned.test, planned.bounds(false_alarm / static_cast<double>(plan.size())));
     tests.push_back(planned.test);
   }
   for (const TrackSample& sample : track.samples()) {
@@ -119,6 +144,35 @@ std::vector<ConsistencyTest> CheckConsistency(const Track& track,
   }
   if (tests.empty()) tests.push_back(Failed("consistency", "no covariance and no innovations"));
   return tests;
+}
+
+std::vector<std::string> Complaints(const std::vector<ConsistencyTest>& tests) {
+  struct Side {
+    std::size_t failed = 0;
+    const ConsistencyTest* worst = nullptr;
+  };
+  std::vector<std::string> complaints;
+  std::map<std::string, std::size_t> asked;
+  std::map<std::pair<std::string, bool>, Side> sides;  // by subject, and whether it is too sure
+  for (const ConsistencyTest& test : tests) {
+    ++asked[test.subject];
+    if (test.holds) continue;
+    if (!std::isfinite(test.value)) {
+      complaints.push_back(test.message);
+      continue;
+    }
+    Side& side = sides[{test.subject, test.value > test.bounds.upper}];
+    ++side.failed;
+    if (side.worst == nullptr || Miss(test) > Miss(*side.worst)) side.worst = &test;
+  }
+  for (const auto& [key, side] : sides) {
+    const std::string fault = key.first.starts_with("whiteness") ? "is not white"
+                              : key.second                       ? "is too sure"
+                                                                 : "is too cautious";
+    complaints.push_back(fmt::format("{} {} in {} of {} tests: {}", key.first, fault, side.failed,
+                                     asked[key.first], side.worst->message));
+  }
+  return complaints;
 }
 
 bool Anees::holds() const {

@@ -21,7 +21,8 @@ Interval ChiSquareMeanBounds(double dof, double count, double false_alarm);
 
 /// One test of a run's honesty.
 struct ConsistencyTest {
-  std::string name;  ///< `nis wheels`, `nees position at 12.000 s`
+  std::string name;     ///< `nis wheels`, `whiteness wheels`, `nees position at 12.000 s`
+  std::string subject;  ///< the same without the time
   double value = 0.0;
   Interval bounds;
   bool holds = false;
@@ -33,13 +34,17 @@ inline constexpr int kNeesTimes = 10;
 
 /// Tests one run, with at most `false_alarm` probability that an honest filter fails any of it
 /// (Bonferroni: each of the tests gets an equal part):
-/// - per sensor, the time-mean NIS against χ² with as many independent corrections as its own
-///   autocorrelation leaves (`NisStatistics::independent`: white innovations keep all of them);
+/// - per sensor, the time-mean NIS against χ², as innovations of an honest filter are white; and
+///   that they are, by the correlation of successive ones against its normal limit;
 /// - per block and at `kNeesTimes` fixed times, evenly spaced up to the end, the NEES against χ².
 /// A covariance that is not positive definite, or nothing to test, is a failed test.
 std::vector<ConsistencyTest> CheckConsistency(const Track& track,
                                               const std::vector<std::string>& sensors,
                                               double false_alarm);
+
+/// One sentence for each subject that fails a test: too sure (above) or too cautious (below), how
+/// often, and the worst of its tests.
+std::vector<std::string> Complaints(const std::vector<ConsistencyTest>& tests);
 
 /// NEES averaged over runs: one value a time, and the interval of an honest filter at each.
 struct Anees {

@@ -18,6 +18,7 @@ std::optional<double> Metrics::Find(std::string_view name) const {
 }
 
 bool Metrics::valid() const {
+  if (Find("unpaired_estimate_count").value_or(0.0) > 0.0) return false;
   return std::all_of(list_.begin(), list_.end(), [](const Metric& metric) {
     return !metric.applies || std::isfinite(metric.value);
   });

@@ -30,7 +30,7 @@ class Metrics {
   /// The value of the metric called `name`; nothing if it is missing or not finite.
   std::optional<double> Find(std::string_view name) const;
 
-  /// Whether every metric that applies is finite.
+  /// Whether every metric that applies is finite, and every estimate was scored.
   bool valid() const;
 
  private:

@@ -47,7 +47,8 @@ Nees ComputeNees(const Truth& truth, const estimator::Estimate& estimate) {
   bool all = true;
   for (int block = 0; block < kNeesFull; ++block) {
     const Eigen::Matrix3d P = estimate.covariance.block<3, 3>(3 * block, 3 * block);
-    if (P.isZero(0.0)) {
+    const bool bias = block == kNeesGyroBias || block == kNeesAccelBias;
+    if (P.isZero(0.0) || (bias && !estimate.has_biases)) {
       all = false;
       continue;
     }

@@ -16,11 +16,9 @@ struct NisStatistics {
   std::size_t corrections = 0;  ///< how many have a NIS (all but refused ones)
   double mean = 0.0;            ///< time-mean of the NIS; NaN without corrections
   double dof = 0.0;             ///< mean number of rows: what `mean` is if the filter is honest
-  /// Whiteness: Σ u_kᵀ u_k+1 / Σ u_kᵀ u_k of the whitened innovations u = L⁻¹ z.
+  /// Whiteness: Σ u_kᵀ u_k+1 / Σ u_kᵀ u_k of the whitened innovations u = L⁻¹ z. An honest filter's
+  /// has the mean 0 and the variance 1/(corrections · dof).
   double lag1 = 0.0;
-  /// How many independent corrections carry as much information about the mean as these:
-  /// corrections / τ, τ = 1 + 2 Σ ρ_k over the NIS' autocorrelation up to its first ρ_k ≤ 0.
-  double independent = 0.0;
 };
 
 NisStatistics NisOf(std::span<const TrackCorrection> corrections, models::SensorId sensor);

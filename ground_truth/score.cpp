@@ -90,7 +90,8 @@ void AddRelative(Metrics& metrics, Samples samples, const ScoreOptions& options)
   }
 }
 
-void AddDrift(Metrics& metrics, Samples samples) {
+void AddDrift(Metrics& metrics, const Track& track) {
+  const Samples samples = track.samples();
   const Drift drift = DriftOf(samples);
   const std::string start = "after yaw and position of the first pose are aligned";
   metrics.Add({"final_drift_m", drift.final_m, true, "m", "position error at the end, " + start});
@@ -107,6 +108,8 @@ void AddDrift(Metrics& metrics, Samples samples) {
       {"duration_s", drift.duration_s, true, "s", "from the first scored estimate to the last"});
   metrics.Add({"estimate_count", static_cast<double>(samples.size()), true, "count",
                "estimates that are scored"});
+  metrics.Add({"unpaired_estimate_count", static_cast<double>(track.unpaired()), true, "count",
+               "estimates without truth at their stamps: not 0, no score of this run is whole"});
 }
 
 double MeanNees(Samples samples, std::size_t block) {
@@ -179,7 +182,7 @@ Metrics Score(const Track& track, const std::vector<std::string>& sensors,
   Metrics metrics;
   AddAbsolute(metrics, track.samples(), options.align);
   AddRelative(metrics, track.samples(), options);
-  AddDrift(metrics, track.samples());
+  AddDrift(metrics, track);
   AddNees(metrics, track);
   AddBiases(metrics, track);
   for (std::size_t id = 0; id < sensors.size(); ++id) {

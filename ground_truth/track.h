@@ -54,6 +54,10 @@ class Track {
   void Add(const estimator::Correction& correction);
   void AddRefusal(models::SensorId sensor, models::TimeNs valid_ns, estimator::Refusal reason);
 
+  /// An estimate without truth at its stamp: it can't be scored, and no score of the run is whole.
+  void AddUnpaired() { ++unpaired_; }
+  std::size_t unpaired() const { return unpaired_; }
+
   const std::vector<TrackSample>& samples() const { return samples_; }
   const std::vector<TrackCorrection>& corrections() const { return corrections_; }
   const std::vector<TrackRefusal>& refusals() const { return refusals_; }
@@ -67,6 +71,7 @@ class Track {
   std::vector<TrackSample> samples_;
   std::vector<TrackCorrection> corrections_;
   std::vector<TrackRefusal> refusals_;
+  std::size_t unpaired_ = 0;
   bool has_covariance_ = false;
   bool has_biases_ = false;
 };

@@ -118,7 +118,11 @@ void Bench::EndInstant() {
     if (recorder_ != nullptr) recorder_->Add(i, *belief);
     timer.Lap(recording_s_);
     if (truth_ == nullptr) continue;
-    if (const auto truth = truth_->At(belief->t_ns)) tested.track.Add(*truth, *belief);
+    if (const auto truth = truth_->At(belief->t_ns)) {
+      tested.track.Add(*truth, *belief);
+    } else {
+      tested.track.AddUnpaired();
+    }
     timer.Lap(scoring_s_);
   }
 }

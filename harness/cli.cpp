@@ -52,19 +52,20 @@ void AddRun(CLI::App& app, RunArguments& run) {
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   command->add_flag("--json", run.json, "Machine-readable results on stdout");
-  command->add_flag("--quiet", run.quiet, "No progress");
+  command->add_flag("--quiet", run.quiet, "No progress and no warnings");
   command->add_flag("--force", run.force, "Replace a folder that is not a result of this scenario");
   command->add_flag("--resume", run.resume, "Keep finished results of the same resolved scenario");
 }
 
 void AddScore(CLI::App& app, ScoreArguments& score) {
-  CLI::App* command = app.add_subcommand("score", "Score recordings again, without simulation");
+  CLI::App* command =
+      app.add_subcommand("score", "Score recordings again and replace their metrics.json");
   command->add_option("results", score.results, "Result folders")->required();
   command->add_option("--set", score.overrides, "Override a key below score. or expect.")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command->add_flag("--json", score.json, "Machine-readable results on stdout");
-  command->add_flag("--quiet", score.quiet, "No progress");
+  command->add_flag("--quiet", score.quiet, "No warnings");
 }
 
 void AddCheck(CLI::App& app, CheckArguments& check) {

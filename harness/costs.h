@@ -19,6 +19,12 @@ struct CallCost {
 struct EstimatorCost {
   CallCost propagations;  ///< calls with an IMU sample
   CallCost corrections;   ///< calls with any other sample
+
+  double mean_us() const {
+    const CallCost all{propagations.calls + corrections.calls,
+                       propagations.total_s + corrections.total_s};
+    return all.mean_us();
+  }
 };
 
 /// Where the wall time of a run went. Times live in run.json alone: they are never the same twice.

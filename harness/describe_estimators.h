@@ -70,9 +70,12 @@ void Describe(Archive& a, EstimatorConfig& e) {
     a.Field("timeout_s", e.timeout_s, "Longest wait for an answer", AboveUpTo(0, 3600));
   }
   if (e.type == "inekf") a.Field("error", e.error, "The error that the filter keeps");
-  a.WordOr("noise", e.noise_source, Choices<NoiseSource>(), NoiseSource::kGiven, e.noise,
-           "The noise believed; numbers that are not given are nominal");
-  if (!is_process) {
+  const bool is_filter = !is_process && e.type != "odometry";  // odometry weighs nothing
+  if (is_process || is_filter) {
+    a.WordOr("noise", e.noise_source, Choices<NoiseSource>(), NoiseSource::kGiven, e.noise,
+             "The noise believed; numbers that are not given are nominal");
+  }
+  if (is_filter) {
     a.Field("gate", e.gate, "Test of every correction's normalised innovation squared");
     a.Field("initialisation", e.initialisation, "How the first state is found");
     a.Field("estimate_gyro_bias", e.estimate_gyro_bias, "false: keeps the prior's");

@@ -51,7 +51,7 @@ Verdict JudgeConsistency(const std::string& estimator, double false_alarm,
   verdict.expectation = fmt::format("{} is consistent (false alarm {:g})", estimator, false_alarm);
   const auto complaints = findings.inconsistencies(estimator, false_alarm);
   verdict.holds = complaints.empty();
-  verdict.detail = fmt::format("{}", fmt::join(complaints, "; "));
+  verdict.detail = fmt::format("{}", fmt::join(complaints, "\n    "));
   return verdict;
 }
 

@@ -1,5 +1,6 @@
 #include "reckon/harness/experiment.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -8,14 +9,28 @@
 namespace reckon::harness {
 namespace {
 
-/// Truth is kept this long: the oldest stamp that a belief may carry.
-constexpr double kTruthHistoryS = 2.0;
+/// Truth is kept this much longer than the slowest message travels: a belief carries the stamp of
+/// the sample that moved it.
+constexpr double kTruthMarginS = 2.0;
 
 /// Steps between two looks at the clock and the stop flag.
 constexpr std::int64_t kStepsPerCheck = 256;
 
 std::size_t HistorySize(const Scenario& scenario) {
-  return static_cast<std::size_t>(std::ceil(kTruthHistoryS / scenario.world.physics_step_s)) + 1;
+  double slowest_s = 0.0;
+  for (const auto& [name, sensor] : scenario.sensors) {
+    const sim::Timing& timing = std::visit(
+        [](const auto& errors) -> const sim::Timing& { return errors.timing; }, sensor.errors);
+    double extra_s = 0.0;
+    for (const sim::FaultConfig& fault : scenario.faults) {
+      if (fault.sensor == name && fault.kind == sim::FaultKind::kExtraDelay) {
+        extra_s += fault.magnitude;
+      }
+    }
+    slowest_s = std::max(slowest_s, timing.latency_s + std::abs(timing.stamp_error_s) + extra_s);
+  }
+  const double seconds = kTruthMarginS + slowest_s;
+  return static_cast<std::size_t>(std::ceil(seconds / scenario.world.physics_step_s)) + 1;
 }
 
 void Poison(ground_truth::Truth& truth) {
@@ -52,12 +67,16 @@ ground_truth::Truth Experiment::TruthNow() const {
 
 void Experiment::Step(bool first, bool poison) {
   world_.Advance();
+  costs_.simulated_s = models::Seconds(world_.motion().t_ns);
   timer_.Lap(costs_.physics_s);
   sent_.clear();
   sensors_.Observe(world_.motion(), sent_);
   timer_.Lap(costs_.sensors_s);
   ground_truth::Truth truth = TruthNow();
-  if (first) bench_.Start(DrawPrior(truth, scenario_.initial, scenario_.seed));
+  if (first) {
+    bench_.Start(DrawPrior(truth, scenario_.initial, scenario_.seed));
+    timer_.Lap(costs_.setup_s);
+  }
   if (poison) Poison(truth);
   truth_.Add(truth);
   if (recorder_ != nullptr) recorder_->Add(truth);
@@ -75,7 +94,6 @@ bool Experiment::Run(const Hooks& hooks) {
     Step(k == 0, hooks.poison_truth);
     if (k % kStepsPerCheck != 0) continue;
     if (hooks.stop != nullptr && *hooks.stop) return false;
-    costs_.simulated_s = models::Seconds(world_.motion().t_ns);
     const double spent =
         costs_.physics_s + costs_.sensors_s + costs_.recording_s + costs_.estimators_s;
     if (hooks.progress && spent > 0.0) {
@@ -85,7 +103,6 @@ bool Experiment::Run(const Hooks& hooks) {
   }
   bench_.Finish();
   timer_.Lap(costs_.estimators_s);
-  costs_.simulated_s = models::Seconds(world_.motion().t_ns);
   const std::vector<std::string> names = bench_.names();
   for (std::size_t i = 0; i < names.size(); ++i) costs_.estimators[names[i]] = bench_.cost(i);
   // The bench records and scores while it delivers: what that took is not the estimators'.

@@ -60,13 +60,18 @@ ground_truth::RecordingPlan PlanOf(const Scenario& scenario, const Robot& robot,
   return plan;
 }
 
-/// Scores every track from `score: start_s` on and judges the expectations.
-void ScoreTracks(const Scenario& scenario, const Robot& robot, Tracks tracks, RunResult& result) {
+/// Forgets what `score: start_s` leaves out: neither scores nor trajectories hold it.
+void DropBeforeStart(const Scenario& scenario, Tracks& tracks) {
   const models::TimeNs start_ns = std::llround(1e9 * scenario.score.start_s);
+  for (auto& [name, track] : tracks) track.DropBefore(start_ns);
+}
+
+/// Scores every track and judges the expectations.
+void ScoreTracks(const Scenario& scenario, const Robot& robot, const Tracks& tracks,
+                 RunResult& result) {
   const std::vector<std::string> sensors = SensorNames(robot.nominal);
   result.scores.clear();
-  for (auto& [name, track] : tracks) {
-    track.DropBefore(start_ns);
+  for (const auto& [name, track] : tracks) {
     result.scores.push_back({name, ground_truth::Score(track, sensors, scenario.score)});
   }
   Findings findings;
@@ -78,30 +83,32 @@ void ScoreTracks(const Scenario& scenario, const Robot& robot, Tracks tracks, Ru
     return std::nullopt;
   };
   findings.inconsistencies = [&](const std::string& estimator, double false_alarm) {
-    std::vector<std::string> complaints;
-    const Track& track = tracks.at(estimator);
-    for (const auto& test : ground_truth::CheckConsistency(track, sensors, false_alarm)) {
-      if (!test.holds) complaints.push_back(test.message);
-    }
-    return complaints;
+    return ground_truth::Complaints(
+        ground_truth::CheckConsistency(tracks.at(estimator), sensors, false_alarm));
   };
   result.verdicts = Judge(scenario.expect, findings);
 }
 
-/// truth.tum at the stamps of the first estimator that has a belief, and one file an estimator.
-void WriteTrajectories(const Tracks& tracks, const ResultsFolder& folder) {
-  bool truth_written = false;
+/// One file an estimator, and truth.tum at the stamps of all of them.
+void WriteTrajectories(const Tracks& tracks, const fs::path& folder) {
+  std::vector<const ground_truth::TrackSample*> truths;
   for (const auto& [name, track] : tracks) {
     if (track.samples().empty()) continue;
-    ground_truth::TumWriter estimate(folder.File(name + ".tum"));
-    for (const auto& sample : track.samples()) estimate.Add(sample.t_ns, sample.X_WB);
+    ground_truth::TumWriter estimate(folder / (name + ".tum"));
+    for (const auto& sample : track.samples()) {
+      estimate.Add(sample.t_ns, sample.X_WB);
+      truths.push_back(&sample);
+    }
     estimate.Close();
-    if (truth_written) continue;
-    ground_truth::TumWriter truth(folder.File("truth.tum"));
-    for (const auto& sample : track.samples()) truth.Add(sample.t_ns, sample.X_WB_true);
-    truth.Close();
-    truth_written = true;
   }
+  if (truths.empty()) return;
+  const auto earlier = [](const auto* a, const auto* b) { return a->t_ns < b->t_ns; };
+  const auto equal = [](const auto* a, const auto* b) { return a->t_ns == b->t_ns; };
+  std::stable_sort(truths.begin(), truths.end(), earlier);
+  truths.erase(std::unique(truths.begin(), truths.end(), equal), truths.end());
+  ground_truth::TumWriter truth(folder / "truth.tum");
+  for (const auto* sample : truths) truth.Add(sample->t_ns, sample->X_WB_true);
+  truth.Close();
 }
 
 std::string ReadFile(const fs::path& path) {
@@ -183,9 +190,10 @@ RunResult RunScenario(const Scenario& scenario, const std::string& name,
   recorder.Close();
   timer.Lap(result.costs.recording_s);
   Tracks tracks = experiment.TakeTracks();
-  WriteTrajectories(tracks, folder);
+  DropBeforeStart(scenario, tracks);
+  WriteTrajectories(tracks, folder.File(""));
   timer.Lap(result.costs.recording_s);
-  ScoreTracks(scenario, robot, std::move(tracks), result);
+  ScoreTracks(scenario, robot, tracks, result);
   timer.Lap(result.costs.scoring_s);
   folder.Write("metrics.json", MetricsJson(result).dump(2) + "\n");
   timer.Lap(result.costs.recording_s);
@@ -197,7 +205,7 @@ RunResult RunScenario(const Scenario& scenario, const std::string& name,
 
 RunResult ScoreResults(const fs::path& folder, const std::vector<std::string>& overrides) {
   const fs::path resolved = folder / kResolved;
-  const auto run = nlohmann::json::parse(ReadFile(folder / "run.json"), nullptr, false);
+  const auto run = nlohmann::ordered_json::parse(ReadFile(folder / "run.json"), nullptr, false);
   if (!run.is_object() || !fs::exists(resolved)) {
     throw std::invalid_argument("not a result folder: it has no run.json and resolved.yaml");
   }
@@ -213,7 +221,13 @@ RunResult ScoreResults(const fs::path& folder, const std::vector<std::string>& o
   result.folder = folder;
   result.failure = run.value("failure", "");
   if (run.value("outcome", "") != "finished") result.outcome = Outcome::kFailed;
-  ScoreTracks(scenario, robot, ReadTracks(folder / kRecording), result);
+  Tracks tracks = ReadTracks(folder / kRecording);
+  DropBeforeStart(scenario, tracks);
+  ScoreTracks(scenario, robot, tracks, result);
+  WriteTrajectories(tracks, folder);
+  // What was expected and how it was scored changes with the scores.
+  WriteWholeFile(resolved, WriteScenario(scenario));
+  WriteWholeFile(folder / "run.json", WithVerdicts(run, result).dump(2) + "\n");
   WriteWholeFile(folder / "metrics.json", MetricsJson(result).dump(2) + "\n");
   return result;
 }

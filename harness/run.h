@@ -59,8 +59,9 @@ struct RunResult {
 /// std::invalid_argument if the robot, world or an estimator can't be built.
 RunResult RunScenario(const Scenario& scenario, const std::string& name, const RunOptions& options);
 
-/// Scores the recording in a result folder again and replaces its metrics.json. Throws
-/// std::invalid_argument if `folder` is no result or its recording lacks truth or estimates.
+/// Scores the recording in a result folder again. Replaces its metrics.json and trajectories, and
+/// what resolved.yaml and run.json tell of `score:` and `expect:`. Throws std::invalid_argument
+/// if `folder` is no result or its recording lacks truth or estimates.
 RunResult ScoreResults(const std::filesystem::path& folder,
                        const std::vector<std::string>& overrides);
 

@@ -1,6 +1,8 @@
 #include "reckon/harness/run_command.h"
 
 #include <fmt/format.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -14,6 +16,7 @@
 #include "reckon/harness/cli.h"
 #include "reckon/harness/nearest.h"
 #include "reckon/harness/progress.h"
+#include "reckon/harness/remarks.h"
 #include "reckon/harness/results_folder.h"
 #include "reckon/harness/run.h"
 #include "reckon/harness/run_json.h"
@@ -71,6 +74,7 @@ std::string RepeatCommand(const std::string& path, const RunArguments& arguments
   if (arguments.seed) command += fmt::format(" --seed {}", *arguments.seed);
   for (const auto& text : arguments.overrides) command += " --set " + Quoted(text);
   for (const auto& name : arguments.estimators) command += " --estimator " + Quoted(name);
+  if (arguments.out != RunArguments().out) command += " --out " + Quoted(arguments.out);
   return command;
 }
 
@@ -144,12 +148,20 @@ int Severity(int code) {
   }
 }
 
-bool StdoutHasColor() {
-  return ::isatty(STDOUT_FILENO) != 0 &&
-         std::getenv("NO_COLOR") == nullptr;  // NOLINT(concurrency-mt-unsafe)
+bool WantsColor() {
+  return std::getenv("NO_COLOR") == nullptr;  // NOLINT(concurrency-mt-unsafe)
 }
 
-int Print(const std::vector<Job>& jobs, bool json) {
+/// Warnings on stderr, in colour where a terminal shows it.
+spdlog::logger MakeLog() {
+  const auto mode = WantsColor() ? spdlog::color_mode::automatic : spdlog::color_mode::never;
+  spdlog::logger log("reckon", std::make_shared<spdlog::sinks::stderr_color_sink_mt>(mode));
+  log.set_pattern("%^%l%$: %v");
+  return log;
+}
+
+int Print(const std::vector<Job>& jobs, bool json, bool quiet) {
+  spdlog::logger log = MakeLog();
   int worst = kExitHolds;
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const Job& job : jobs) {
@@ -159,7 +171,12 @@ int Print(const std::vector<Job>& jobs, bool json) {
     if (json) {
       all.push_back(SummaryJson(*job.result, job.command));
     } else {
-      fmt::print("{}", ScoreTable(*job.result, job.command, StdoutHasColor()));
+      fmt::print(
+          "{}", ScoreTable(*job.result, job.command, ::isatty(STDOUT_FILENO) != 0 && WantsColor()));
+    }
+    if (quiet) continue;
+    for (const auto& remark : Remarks(*job.result)) {
+      log.warn("{}: {}", job.result->scenario, remark);
     }
   }
   if (json) fmt::print("{}\n", all.dump(2));
@@ -205,7 +222,7 @@ int RunCommand(const RunArguments& arguments) {
   for (Job& job : jobs) {
     if (interrupted && !job.result && job.error.empty()) job.code = kExitInterrupted;
   }
-  return Print(jobs, arguments.json);
+  return Print(jobs, arguments.json, arguments.quiet);
 }
 
 int ScoreCommand(const ScoreArguments& arguments) {
@@ -235,7 +252,7 @@ int ScoreCommand(const ScoreArguments& arguments) {
       job.code = kExitRunFailed;
     }
   }
-  return Print(jobs, arguments.json);
+  return Print(jobs, arguments.json, arguments.quiet);
 }
 
 }  // namespace reckon::harness

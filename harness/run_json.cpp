@@ -88,7 +88,6 @@ ground_truth::Metrics ReadMetrics(const ordered_json& scores,
 
 ordered_json MetricsJson(const RunResult& result) {
   return {{"schema", 1},
-          {"scenario", result.scenario},
           {"seed", result.seed},
           {"complete", result.outcome == Outcome::kFinished},
           {"estimators", EstimatorsJson(result)}};
@@ -111,6 +110,12 @@ ordered_json RunJson(const RunResult& result, const std::string& command) {
                        {"costs", CostsJson(result.costs)},
                        {"expectations", VerdictsJson(result)}};
   return json;
+}
+
+ordered_json WithVerdicts(ordered_json run, const RunResult& result) {
+  run["exit_code"] = result.exit_code();
+  run["expectations"] = VerdictsJson(result);
+  return run;
 }
 
 std::optional<RunResult> ReadRunJson(const std::string& run_text, const std::string& metrics_text,

@@ -186,12 +186,13 @@ class Rules {
               "a program and its arguments");
       return;
     }
-    if (!Sees<sim::ImuConfig>(estimator)) {
+    const std::string& wheels = s_.nominal.wheels.encoders;
+    if (estimator.type != "odometry") {
+      if (Sees<sim::ImuConfig>(estimator)) return;
       Complain(path, "type '" + estimator.type + "' needs an IMU, and is given none");
-    }
-    if (estimator.type == "odometry" && !s_.sensors.contains(s_.nominal.wheels.encoders)) {
+    } else if (!s_.sensors.contains(wheels)) {
       Complain(path, "type 'odometry' needs wheel encoders, and this robot has none");
-    } else if (estimator.type == "odometry" && !IsGiven(estimator, s_.nominal.wheels.encoders)) {
+    } else if (!IsGiven(estimator, wheels)) {
       Complain(path, "type 'odometry' needs wheel encoders, and is given none");
     }
   }
@@ -210,6 +211,8 @@ class Rules {
   }
 
   void CheckExpectations() const {
+    Require(s_.expect.exit_code != 2, "/expect/exit_code",
+            "0, 1 or 3: a run that starts can't end with 2");
     const Names metrics = MetricNames(sensors_, s_.score);
     const Names estimators = KeysOf(s_.estimators);
     for (const auto& [name, expectation] : s_.expect.estimators) {

@@ -52,7 +52,7 @@ std::string Rows(const RunResult& result) {
     text += fmt::format("  {:>12}", column.title);
     units += fmt::format("  {:>12}", column.unit);
   }
-  text += fmt::format("  {:>9}\n", "step") + units + fmt::format("  {:>9}\n", "us");
+  text += fmt::format("  {:>9}\n", "a message") + units + fmt::format("  {:>9}\n", "us");
   for (const auto& score : result.scores) {
     text += fmt::format("  {:<{}}", score.name, width);
     for (const auto& column : kColumns) {
@@ -61,7 +61,7 @@ std::string Rows(const RunResult& result) {
     const auto cost = result.costs.estimators.find(score.name);
     const bool known = cost != result.costs.estimators.end();
     text += fmt::format("  {:>9}\n",
-                        known ? fmt::format("{:.2f}", cost->second.propagations.mean_us()) : "-");
+                        known ? fmt::format("{:.2f}", cost->second.mean_us()) : "-");
   }
   return text;
 }

@@ -83,13 +83,14 @@ bool AnyStartsWith(const std::vector<std::string>& names, const std::string& tex
 
 TEST(Consistency, TestsOneSensorAndSixBlocksAtTenTimes) {
   const auto tests = CheckConsistency(HonestyRun(1, 1.0, 1.0), kSensors, 1e-6);
-  EXPECT_EQ(tests.size(), 1U + 6U * 10U);
+  EXPECT_EQ(tests.size(), 2U + 6U * 10U);
   EXPECT_EQ(tests[0].name, "nis wheels");
-  EXPECT_EQ(tests[1].name, "nees orientation at 5.950 s");  // the last sample is at 59.95 s
+  EXPECT_EQ(tests[1].name, "whiteness wheels");
+  EXPECT_EQ(tests[2].name, "nees orientation at 5.950 s");  // the last sample is at 59.95 s
   // Each test's part of the false alarms: the bounds of a lone χ²_3.
-  const Interval bounds = ChiSquareMeanBounds(3, 1, 1e-6 / 61);
-  EXPECT_EQ(tests[1].bounds.lower, bounds.lower);
-  EXPECT_EQ(tests[1].bounds.upper, bounds.upper);
+  const Interval bounds = ChiSquareMeanBounds(3, 1, 1e-6 / 62);
+  EXPECT_EQ(tests[2].bounds.lower, bounds.lower);
+  EXPECT_EQ(tests[2].bounds.upper, bounds.upper);
 }
 
 /// At a family rate of 5 %, 200 honest runs fail about ten times; Bonferroni's bound is from above.
@@ -123,6 +124,33 @@ TEST(Consistency, SaysByHowMuch) {
   EXPECT_NE(tests[0].message.find("nis wheels is 3"), std::string::npos);  // about 30
   EXPECT_NE(tests[0].message.find("off by a factor of"), std::string::npos);
   EXPECT_GT(tests[0].value / tests[0].bounds.upper, 5.0);
+}
+
+TEST(Consistency, FailsInnovationsThatAreNotWhite) {
+  // The same innovation three times in a row: honest in size, correlated by 2/3.
+  std::mt19937_64 generator(5);
+  std::normal_distribution<double> normal;
+  Track track;
+  estimator::Correction correction;
+  correction.sensor = 1;
+  correction.rows = 3;
+  correction.covariance.setIdentity();
+  for (int k = 0; k < 3000; ++k) {
+    correction.t_ns = k;
+    if (k % 3 == 0)
+      correction.innovation = {normal(generator), normal(generator), normal(generator)};
+    correction.nis = correction.innovation.squaredNorm();
+    track.Add(correction);
+  }
+  EXPECT_TRUE(AnyStartsWith(Failures(track, 1e-6), "whiteness wheels"));
+}
+
+TEST(Consistency, ComplainsOncePerSubject) {
+  const auto complaints = Complaints(CheckConsistency(HonestyRun(1, 100.0, 0.1), kSensors, 1e-6));
+  const auto starts = [&](const std::string& text) { return AnyStartsWith(complaints, text); };
+  EXPECT_TRUE(starts("nis wheels is too sure in 1 of 1 tests: "));
+  EXPECT_TRUE(starts("nees full is too cautious in 10 of 10 tests: "));
+  EXPECT_LE(complaints.size(), 7U);  // the sensor and six blocks
 }
 
 TEST(Consistency, FailsWhatCantBeTested) {

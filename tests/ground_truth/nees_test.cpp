@@ -115,7 +115,7 @@ TEST(Nees, OfOneSigmaAnAxisIsItsDof) {
   const Truth truth = SomeTruth();
   estimator::Estimate estimate = testing::Exact(truth);
   estimate.form = ErrorForm::kMultiplicative;
-  estimate.has_covariance = true;
+  estimate.has_covariance = estimate.has_biases = true;
   estimate.v_WB += Eigen::Vector3d(0.1, -0.1, 0.1);
   estimate.X_WB.p += Eigen::Vector3d(2.0, 2.0, -2.0);
   estimate.covariance.diagonal() << 1, 1, 1, 0.01, 0.01, 0.01, 4, 4, 4, 1, 1, 1, 1, 1, 1;
@@ -139,7 +139,7 @@ TEST(Nees, OfErrorsDrawnFromTheCovarianceHasMeanN) {
   }
   const Truth truth = SomeTruth();
   estimator::Estimate estimate = testing::Exact(truth);
-  estimate.has_covariance = true;
+  estimate.has_covariance = estimate.has_biases = true;
   estimate.form = ErrorForm::kRightInvariant;
   estimate.covariance = L * L.transpose();
   constexpr int kDraws = 20000;
@@ -169,7 +169,7 @@ TEST(Nees, LeavesOutWhatIsNotEstimated) {
   const Truth truth = SomeTruth();
   estimator::Estimate estimate = testing::Exact(truth);
   EXPECT_TRUE(std::isnan(ComputeNees(truth, estimate).value[kNeesPosition]));  // no covariance
-  estimate.has_covariance = true;
+  estimate.has_covariance = estimate.has_biases = true;
   estimate.covariance.diagonal().head<9>().setOnes();  // no biases
   const Nees nees = ComputeNees(truth, estimate);
   EXPECT_EQ(nees.value[kNeesPosition], 0.0);
@@ -178,11 +178,24 @@ TEST(Nees, LeavesOutWhatIsNotEstimated) {
   EXPECT_FALSE(nees.indefinite);
 }
 
+TEST(Nees, HasNoBiasesOfAnEstimatorThatGivesNone) {
+  const Truth truth;
+  estimator::Estimate estimate = testing::Exact(truth);
+  estimate.has_covariance = true;
+  estimate.has_biases = false;
+  estimate.covariance.setIdentity();
+  const Nees nees = ComputeNees(truth, estimate);
+  EXPECT_TRUE(nees.estimated[kNeesPosition]);
+  for (const int block : {kNeesGyroBias, kNeesAccelBias, kNeesFull}) {
+    EXPECT_FALSE(nees.estimated[static_cast<std::size_t>(block)]) << block;
+  }
+}
+
 TEST(Nees, FlagsABrokenCovariance) {
   const Truth truth = SomeTruth();
   for (const double bad : {-1.0, std::nan("")}) {
     estimator::Estimate estimate = testing::Exact(truth);
-    estimate.has_covariance = true;
+    estimate.has_covariance = estimate.has_biases = true;
     estimate.covariance.setIdentity();
     estimate.covariance(7, 7) = bad;
     const Nees nees = ComputeNees(truth, estimate);

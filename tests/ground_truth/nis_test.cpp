@@ -50,8 +50,6 @@ TEST(Nis, OfWhiteInnovations) {
   EXPECT_EQ(nis.dof, 3.0);
   EXPECT_NEAR(nis.mean, 3.0, 5.0 * std::sqrt(6.0 / kCount));  // five sigma of a mean of χ²_3
   EXPECT_NEAR(nis.lag1, 0.0, 5.0 / std::sqrt(3.0 * kCount));  // three white rows
-  EXPECT_GT(nis.independent, 0.85 * kCount);                  // chance correlations only
-  EXPECT_LE(nis.independent, kCount);
 }
 
 TEST(Nis, OfCoupledInnovations) {
@@ -59,8 +57,6 @@ TEST(Nis, OfCoupledInnovations) {
   const double rho = 0.8;
   const NisStatistics nis = NisOf(Innovations(kCount, rho, 3).corrections(), 1);
   EXPECT_NEAR(nis.lag1, rho, 0.02);
-  // The NIS of an AR(1) is correlated by ρ²ᵏ: τ = (1 + ρ²)/(1 − ρ²) = 4.56.
-  EXPECT_NEAR(kCount / nis.independent, 4.56, 0.5);
 }
 
 TEST(Nis, OfOneSensorCountsRejectedOnesAndNoRefusedOnes) {
