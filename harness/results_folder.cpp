@@ -94,20 +94,26 @@ void ResultsFolder::Publish() {
   if (replaces) fs::remove_all(old, error);
 }
 
-void WriteWholeFile(const fs::path& path, std::string_view text) {
-  const fs::path part = path.string() + fmt::format(".part.{}", ::getpid());
-  std::error_code error, ignored;
-  try {
-    WriteBytes(part, text);
-  } catch (const OutputError&) {
-    fs::remove(part, ignored);
-    throw;
-  }
-  fs::rename(part, path, error);
-  if (error) {
-    fs::remove(part, ignored);
-    throw OutputError(
-        fmt::format("can't rename {} to {}: {}", part.string(), path.string(), error.message()));
+ReplacementFiles::ReplacementFiles(fs::path folder)
+    : final_(std::move(folder)), part_(PartName(final_ / "scores")) {}
+
+ReplacementFiles::~ReplacementFiles() {
+  std::error_code ignored;
+  fs::remove_all(part_, ignored);
+}
+
+void ReplacementFiles::Write(std::string_view name, std::string_view text) const {
+  WriteBytes(part_ / name, text);
+}
+
+void ReplacementFiles::Publish() {
+  std::error_code error;
+  for (const auto& file : fs::directory_iterator(part_)) {
+    fs::rename(file.path(), final_ / file.path().filename(), error);
+    if (error) {
+      throw OutputError(fmt::format("can't rename {} to {}: {}", file.path().string(),
+                                    final_.string(), error.message()));
+    }
   }
 }
 

@@ -48,9 +48,25 @@ class ResultsFolder {
   bool published_ = false;
 };
 
-/// Writes `text` to `path` by way of a temporary file beside it, so that a reader sees the old file
-/// or the new one. Throws OutputError.
-void WriteWholeFile(const std::filesystem::path& path, std::string_view text);
+/// Files that replace those of a finished result together: they are written into a folder inside
+/// it, and `Publish` renames them into place once all are whole. Without it, nothing has changed.
+class ReplacementFiles {
+ public:
+  /// Throws OutputRefused if nothing can be written into `folder`.
+  explicit ReplacementFiles(std::filesystem::path folder);
+  ~ReplacementFiles();
+  ReplacementFiles(const ReplacementFiles&) = delete;
+  ReplacementFiles& operator=(const ReplacementFiles&) = delete;
+
+  const std::filesystem::path& folder() const { return part_; }
+
+  /// Throws OutputError.
+  void Write(std::string_view name, std::string_view text) const;
+  void Publish();
+
+ private:
+  std::filesystem::path final_, part_;
+};
 
 /// Whether `folder` holds a finished result of this scenario and seed.
 bool IsFinishedResult(const std::filesystem::path& folder, const std::string& scenario,

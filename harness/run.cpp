@@ -224,11 +224,12 @@ RunResult ScoreResults(const fs::path& folder, const std::vector<std::string>& o
   Tracks tracks = ReadTracks(folder / kRecording);
   DropBeforeStart(scenario, tracks);
   ScoreTracks(scenario, robot, tracks, result);
-  WriteTrajectories(tracks, folder);
-  // What was expected and how it was scored changes with the scores.
-  WriteWholeFile(resolved, WriteScenario(scenario));
-  WriteWholeFile(folder / "run.json", WithVerdicts(run, result).dump(2) + "\n");
-  WriteWholeFile(folder / "metrics.json", MetricsJson(result).dump(2) + "\n");
+  result.score_overrides = overrides;
+  ReplacementFiles files(folder);
+  WriteTrajectories(tracks, files.folder());
+  files.Write("run.json", WithVerdicts(run, result).dump(2) + "\n");
+  files.Write("metrics.json", MetricsJson(result).dump(2) + "\n");
+  files.Publish();
   return result;
 }
 

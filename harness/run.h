@@ -47,7 +47,8 @@ struct RunResult {
   std::vector<Verdict> verdicts;
   std::optional<int> expected_exit_code;  ///< `expect: exit_code:`
   Costs costs;
-  bool resumed = false;  ///< read back, not run
+  std::vector<std::string> score_overrides;  ///< of scoring again
+  bool resumed = false;                      ///< read back, not run
 
   /// 0, 1 or 3 as the command line means them. A run that had to end with another code than 0 and
   /// did is one whose expectations hold.
@@ -59,9 +60,10 @@ struct RunResult {
 /// std::invalid_argument if the robot, world or an estimator can't be built.
 RunResult RunScenario(const Scenario& scenario, const std::string& name, const RunOptions& options);
 
-/// Scores the recording in a result folder again. Replaces its metrics.json and trajectories, and
-/// what resolved.yaml and run.json tell of `score:` and `expect:`. Throws std::invalid_argument
-/// if `folder` is no result or its recording lacks truth or estimates.
+/// Scores the recording in a result folder again, with `overrides` of `score:` and `expect:`, which
+/// metrics.json then names. Replaces metrics.json, the trajectories and run.json's expectations,
+/// all or nothing. Throws std::invalid_argument if `folder` is no result or its recording lacks
+/// truth or estimates.
 RunResult ScoreResults(const std::filesystem::path& folder,
                        const std::vector<std::string>& overrides);
 

@@ -87,10 +87,11 @@ ground_truth::Metrics ReadMetrics(const ordered_json& scores,
 }  // namespace
 
 ordered_json MetricsJson(const RunResult& result) {
-  return {{"schema", 1},
-          {"seed", result.seed},
-          {"complete", result.outcome == Outcome::kFinished},
-          {"estimators", EstimatorsJson(result)}};
+  ordered_json json = {
+      {"schema", 1}, {"seed", result.seed}, {"complete", result.outcome == Outcome::kFinished}};
+  if (!result.score_overrides.empty()) json["score_overrides"] = result.score_overrides;
+  json["estimators"] = EstimatorsJson(result);
+  return json;
 }
 
 ordered_json RunJson(const RunResult& result, const std::string& command) {
@@ -123,6 +124,7 @@ std::optional<RunResult> ReadRunJson(const std::string& run_text, const std::str
   const auto run = ordered_json::parse(run_text);
   const auto metrics = ordered_json::parse(metrics_text);
   if (run.at("outcome") != OutcomeName(Outcome::kFinished)) return std::nullopt;
+  if (metrics.contains("score_overrides")) return std::nullopt;  // not that run's own scores
   RunResult result;
   for (const auto& verdict : run.at("expectations")) {
     result.verdicts.push_back(

@@ -18,7 +18,8 @@ nlohmann::ordered_json RunJson(const RunResult& result, const std::string& comma
 nlohmann::ordered_json WithVerdicts(nlohmann::ordered_json run, const RunResult& result);
 
 /// The finished run that its run.json and metrics.json tell of: verdicts and scores; nothing if it
-/// did not finish or the texts are no such files. `catalogue` holds the metrics to look for.
+/// did not finish, it was scored otherwise since, or the texts are no such files. `catalogue` holds
+/// the metrics to look for.
 std::optional<RunResult> ReadRunJson(const std::string& run_text, const std::string& metrics_text,
                                      const ground_truth::Metrics& catalogue);
 

@@ -60,8 +60,7 @@ std::string Rows(const RunResult& result) {
     }
     const auto cost = result.costs.estimators.find(score.name);
     const bool known = cost != result.costs.estimators.end();
-    text += fmt::format("  {:>9}\n",
-                        known ? fmt::format("{:.2f}", cost->second.mean_us()) : "-");
+    text += fmt::format("  {:>9}\n", known ? fmt::format("{:.2f}", cost->second.mean_us()) : "-");
   }
   return text;
 }

@@ -52,7 +52,8 @@ class Scores(ProgramTest):
         done = self.call("score", self.result(), "--set", "score.align=se3",
                          "--set", "expect.riekf.ate_position_rmse_m.min=100")
         self.assertEqual(done.returncode, 1)
-        self.assertIn("align: se3", (self.result() / "resolved.yaml").read_text())
+        metrics = json.loads((self.result() / "metrics.json").read_text())
+        self.assertIn("score.align=se3", metrics["score_overrides"])
         run = json.loads((self.result() / "run.json").read_text())
         self.assertEqual(run["exit_code"], 1)
         self.assertFalse(run["expectations"][0]["holds"])
