@@ -245,12 +245,12 @@ void ImuFilter<Core>::Correct(const Measurement& measurement, Report& report) {
 }
 
 template <class Core>
-void ImuFilter<Core>::Apply(const Measurement& measurement, const Linearisation& linearisation,
+void ImuFilter<Core>::Apply(const Measurement& measurement, const Linearisation<3>& linearisation,
                             Report& report) {
-  const Linearisation own = Core::Convert(linearisation, core_.x());
-  KalmanCorrection kalman(core_.P(), own);
+  const Linearisation<3>& own = Core::Convert(linearisation, core_.x());
+  KalmanCorrection<3> kalman(core_.P(), own);
   Correction correction;
-  correction.t_ns = t_ns_;
+  correction.t_ns = measurement.valid_ns;
   correction.sensor = measurement.sensor;
   correction.rows = 3;
   // In the body's axes, where a reader expects a velocity.
@@ -291,6 +291,7 @@ std::optional<Estimate> ImuFilter<Core>::Belief() const {
 }
 
 template class ImuFilter<RightInvariantEkf>;
+template class ImuFilter<LeftInvariantEkf>;
 template class ImuFilter<MultiplicativeEkf>;
 
 }  // namespace reckon::estimator

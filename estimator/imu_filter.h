@@ -6,6 +6,7 @@
 #include "reckon/estimator/estimator.h"
 #include "reckon/estimator/gate.h"
 #include "reckon/estimator/holding_buffer.h"
+#include "reckon/estimator/left_invariant_ekf.h"
 #include "reckon/estimator/linearisation.h"
 #include "reckon/estimator/multiplicative_ekf.h"
 #include "reckon/estimator/right_invariant_ekf.h"
@@ -51,7 +52,7 @@ class ImuFilter final : public Estimator {
   std::optional<models::BodyVelocitySample> VelocityOf(
       const models::Measurement& measurement) const;
   models::Pose FrameInI(const models::Measurement& measurement) const;
-  void Apply(const models::Measurement& measurement, const Linearisation& linearisation,
+  void Apply(const models::Measurement& measurement, const Linearisation<3>& linearisation,
              Report& report);
   TurnRate Turn() const;
 
@@ -75,6 +76,7 @@ class ImuFilter final : public Estimator {
 };
 
 extern template class ImuFilter<RightInvariantEkf>;
+extern template class ImuFilter<LeftInvariantEkf>;
 extern template class ImuFilter<MultiplicativeEkf>;
 
 }  // namespace reckon::estimator

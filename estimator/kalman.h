@@ -4,67 +4,52 @@
 #include <Eigen/Core>
 #include <limits>
 
-#include "reckon/estimator/estimate.h"
+#include "reckon/estimator/covariance.h"
 #include "reckon/estimator/linearisation.h"
 
 namespace reckon::estimator {
 
+/// An increment of the error by slot; only active slots count.
+using SlotVector = std::array<Lane, kSlots>;
+
 /// The part of a correction that no error form changes: what is expected of the innovation, and the
-/// exact covariance update.
+/// exact covariance update. Nothing allocates.
+template <int kRows>
 class KalmanCorrection {
  public:
-  /// C = P Hᵀ, S = H C + N and NIS = zᵀ S⁻¹ z of a measurement z = −H ξ + n.
-  KalmanCorrection(const ErrorCovariance& P, const Linearisation& m) : m_(m) {
-    C_.setZero();
-    for (const Block& b : m.blocks()) C_ += P.middleCols<3>(b.slot) * b.H.transpose();
-    S_ = Times(C_) + m.N;
-    solver_.compute(S_);
-    nis_ = solver_.info() == Eigen::Success ? m.z.dot(solver_.solve(m.z))
-                                            : std::numeric_limits<double>::quiet_NaN();
-  }
+  using Vector = typename Linearisation<kRows>::Vector;
+  using Matrix = typename Linearisation<kRows>::Matrix;
+
+  /// C = P Hᵀ, S = H C + N and NIS = zᵀ S⁻¹ z of a measurement z = −H ξ + n. Both must outlive it.
+  KalmanCorrection(const Covariance& P, const Linearisation<kRows>& m);
 
   /// Not a number if S is not positive definite.
   double nis() const { return nis_; }
-  const Eigen::Matrix3d& S() const { return S_; }
+  const Matrix& S() const { return S_; }
 
   /// Multiplies the measurement's noise so that NIS falls to `target`; exact for one row, and
   /// conservative for more (S grows as a whole).
-  void Inflate(double target) {
-    const double factor = nis_ / target;
-    extra_ = (factor - 1.0) * S_;
-    solver_.compute(factor * S_);
-  }
+  void Inflate(double target);
 
   /// K z with K = C S⁻¹.
-  ErrorVector Gain() const { return C_ * solver_.solve(m_.z); }
+  SlotVector Gain() const;
 
   /// P⁺ in the structured Joseph form: with M = P − K Cᵀ, P⁺ = M − (M Hᵀ − K N) Kᵀ. Equal to
-  /// (I − K H) P (I − K H)ᵀ + K N Kᵀ, whose round-off it keeps, at a third of the cost.
-  void UpdateCovariance(ErrorCovariance& P) const {
-    const Strip K = solver_.solve(C_.transpose()).transpose();
-    P.noalias() -= K.lazyProduct(C_.transpose());
-    Strip MHt = Strip::Zero();
-    for (const Block& b : m_.blocks()) MHt += P.middleCols<3>(b.slot) * b.H.transpose();
-    MHt -= K * (m_.N + extra_);
-    P.noalias() -= MHt.lazyProduct(K.transpose());
-    P = 0.5 * (P + P.transpose()).eval();
-  }
+  /// (I − K H) P (I − K H)ᵀ + K N Kᵀ, whose round-off it keeps, at a third of the cost. `P` must be
+  /// what the correction was made from.
+  void UpdateCovariance(Covariance& P) const;
 
  private:
-  using Strip = Eigen::Matrix<double, kErrorSize, 3>;
+  void Solve();
 
-  /// H C for the strip C = P Hᵀ.
-  Eigen::Matrix3d Times(const Strip& C) const {
-    Eigen::Matrix3d HC = Eigen::Matrix3d::Zero();
-    for (const Block& b : m_.blocks()) HC += b.H * C.middleRows<3>(b.slot);
-    return 0.5 * (HC + HC.transpose());
-  }
-
-  const Linearisation& m_;
-  Strip C_;
-  Eigen::Matrix3d S_, extra_ = Eigen::Matrix3d::Zero();
-  Eigen::LLT<Eigen::Matrix3d> solver_;
+  const Linearisation<kRows>& m_;
+  std::span<const Slot> active_;
+  std::array<Strip<kRows>, kSlots> C_;
+  Matrix S_, S_inverse_, N_;
   double nis_ = 0.0;
 };
+
+extern template class KalmanCorrection<1>;
+extern template class KalmanCorrection<3>;
 
 }  // namespace reckon::estimator

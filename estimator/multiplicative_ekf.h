@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "reckon/estimator/estimate.h"
+#include "reckon/estimator/kalman.h"
 #include "reckon/estimator/linearisation.h"
 #include "reckon/estimator/navigation_state.h"
 
@@ -29,14 +30,17 @@ class MultiplicativeEkf {
   void Propagate(const Increment& u, const Eigen::Vector3d& g, const ProcessNoise& noise);
 
   /// The blocks of a measurement for this error: H_θ = (H_θr + H_v [v̂]× + H_p [p̂]×) R̂.
-  static Linearisation Convert(const Linearisation& m, const NavigationState& x);
+  template <int kRows>
+  static Linearisation<kRows> Convert(const Linearisation<kRows>& m, const NavigationState& x) {
+    return ForError(m, x, Eigen::Matrix3d::Identity());
+  }
 
   /// R⁺ = R̂ Exp(θ), v⁺ = v̂ + δv, p⁺ = p̂ + δp and b⁺ = b̂ + ζ for the increment K z.
-  void Retract(const ErrorVector& increment);
+  void Retract(const SlotVector& increment);
 
   const NavigationState& x() const { return x_; }
-  const ErrorCovariance& P() const { return P_; }
-  ErrorCovariance& P() { return P_; }
+  const Covariance& P() const { return P_; }
+  Covariance& P() { return P_; }
 
   /// As RightInvariantEkf::BodyCovariance; here `w` turns orientation error into velocity error.
   ErrorCovariance BodyCovariance(const Eigen::Vector3d& r_IB, const Eigen::Vector3d& w,
@@ -44,7 +48,7 @@ class MultiplicativeEkf {
 
  private:
   NavigationState x_;
-  ErrorCovariance P_ = ErrorCovariance::Zero();
+  Covariance P_;
 };
 
 }  // namespace reckon::estimator

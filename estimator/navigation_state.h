@@ -1,8 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
 #include "reckon/estimator/estimate.h"
+#include "reckon/estimator/slot.h"
 #include "reckon/estimator/so3.h"
 
 namespace reckon::estimator {
@@ -15,6 +17,15 @@ struct NavigationState {
   Eigen::Vector3d p = Eigen::Vector3d::Zero();
   Eigen::Vector3d gyro_bias = Eigen::Vector3d::Zero();
   Eigen::Vector3d accel_bias = Eigen::Vector3d::Zero();
+  std::array<Eigen::Vector3d, kMaxFeet> d{};  ///< of the feet that are in contact
+
+  /// The vector that the slot of a velocity, position or foot stands for.
+  const Eigen::Vector3d& At(Slot slot) const {
+    return slot == kVelocitySlot ? v : slot == kPositionSlot ? p : d[slot - kFirstFootSlot];
+  }
+  Eigen::Vector3d& At(Slot slot) {
+    return slot == kVelocitySlot ? v : slot == kPositionSlot ? p : d[slot - kFirstFootSlot];
+  }
 };
 
 /// An IMU sample in the axes of I, less the biases, held over `dt`: what moves a state, with the
@@ -24,14 +35,14 @@ struct Increment {
       : w(w_rad_s),
         a(a_m_s2),
         dt(dt_s),
-        phi(w * dt),
-        G0(Gamma(0, phi)),
-        G1(Gamma(1, phi)),
-        G2(Gamma(2, phi)) {}
+        series(w * dt),
+        G0(series.Gamma(0)),
+        G1(series.Gamma(1)),
+        G2(series.Gamma(2)) {}
 
   Eigen::Vector3d w, a;
   double dt;
-  Eigen::Vector3d phi;
+  RotationSeries series;
   Eigen::Matrix3d G0, G1, G2;
 };
 

@@ -13,8 +13,13 @@ std::unique_ptr<Estimator> Make(const Setup& setup) {
   return std::make_unique<T>(setup);
 }
 
+std::unique_ptr<Estimator> MakeInvariant(const Setup& setup) {
+  if (setup.error == ErrorForm::kLeftInvariant) return Make<ImuFilter<LeftInvariantEkf>>(setup);
+  return Make<ImuFilter<RightInvariantEkf>>(setup);
+}
+
 constexpr std::array<RegistryEntry, 3> kEntries{{
-    {"inekf", "Right-invariant EKF with IMU biases", Make<ImuFilter<RightInvariantEkf>>},
+    {"inekf", "Invariant EKF with IMU biases, right- or left-invariant", MakeInvariant},
     {"mekf", "Multiplicative EKF, the classical baseline: same inputs, noise and gates",
      Make<ImuFilter<MultiplicativeEkf>>},
     {"odometry", "Planar wheel odometry without covariance", Make<WheelOdometry>},

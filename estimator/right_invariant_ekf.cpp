@@ -11,61 +11,55 @@ void RightInvariantEkf::Propagate(const Increment& u, const Vector3d& g,
   const Matrix3d R = x_.R;
   x_ = Propagated(x_, u, g);
 
-  // Gravity and velocity, rows then columns: position first, it reads the old velocity.
-  const Matrix3d g_dt = Skew(g) * dt;
-  P_.middleRows<3>(kPosition) += dt * P_.middleRows<3>(kVelocity);
-  P_.middleRows<3>(kPosition) += (0.5 * dt * g_dt).lazyProduct(P_.middleRows<3>(kTheta));
-  P_.middleRows<3>(kVelocity) += g_dt.lazyProduct(P_.middleRows<3>(kTheta));
-  P_.middleCols<3>(kPosition) += dt * P_.middleCols<3>(kVelocity);
-  P_.middleCols<3>(kPosition) -= P_.middleCols<3>(kTheta).lazyProduct(0.5 * dt * g_dt);
-  P_.middleCols<3>(kVelocity) -= P_.middleCols<3>(kTheta).lazyProduct(g_dt);
+  // Gravity and velocity; the position first, it reads the old velocity.
+  const Lane g_dt = ToLane(g * dt), half_g_dt2 = ToLane(0.5 * dt * dt * g);
+  P_.AddRow(
+      kPositionSlot, [dt](const LaneMatrix& v) { return dt * v; }, kVelocitySlot);
+  P_.AddRow(
+      kPositionSlot, [half_g_dt2](const LaneMatrix& theta) { return Cross(half_g_dt2, theta); },
+      kThetaSlot);
+  P_.AddRow(
+      kVelocitySlot, [g_dt](const LaneMatrix& theta) { return Cross(g_dt, theta); }, kThetaSlot);
 
-  // The bias columns of Φ.
-  Eigen::Matrix<double, 9, 6> J;
-  const Matrix3d theta_g = -dt * R * u.G1;
-  J.block<3, 3>(kTheta, 0) = theta_g;
-  J.block<3, 3>(kVelocity, 0) =
-      Skew(x_.v) * theta_g - (dt * dt) * R * GammaDerivative(1, u.phi, u.a);
-  J.block<3, 3>(kPosition, 0) =
-      Skew(x_.p) * theta_g - (dt * dt * dt) * R * GammaDerivative(2, u.phi, u.a);
-  J.block<3, 3>(kTheta, 3).setZero();
-  J.block<3, 3>(kVelocity, 3) = theta_g;
-  J.block<3, 3>(kPosition, 3) = -(dt * dt) * R * u.G2;
-
-  // P_xx += W Jᵀ + J Wᵀ with W = (U + U′)/2 + J Q/(2Δt): biases and the held sample's noise at
-  // once.
-  Eigen::Matrix<double, 6, 1> q;
-  q << Vector3d::Constant(noise.gyro / (2.0 * dt)), Vector3d::Constant(noise.accel / (2.0 * dt));
-  const Eigen::Matrix<double, 9, 6> U = P_.block<9, 6>(kTheta, kGyroBias);
-  const Eigen::Matrix<double, 9, 6> U_next =
-      U + J.lazyProduct(P_.block<6, 6>(kGyroBias, kGyroBias));
-  const Eigen::Matrix<double, 9, 6> W = 0.5 * (U + U_next) + J * q.asDiagonal();
-  const Eigen::Matrix<double, 9, 9> WJt = W.lazyProduct(J.transpose());
-  P_.block<9, 9>(kTheta, kTheta) += WJt + WJt.transpose();
-  P_.block<9, 6>(kTheta, kGyroBias) = U_next;
-  P_.block<6, 9>(kGyroBias, kTheta) = U_next.transpose();
-
-  P_.diagonal().segment<3>(kGyroBias).array() += noise.gyro_walk * dt;
-  P_.diagonal().segment<3>(kAccelBias).array() += noise.accel_walk * dt;
+  // Biases, and the noise of the sample.
+  BiasColumns J;
+  const LaneMatrix R_dt = ToLanes(dt * R);
+  const LaneMatrix theta_g = -1.0 * (R_dt * ToLanes(u.G1));
+  J.gyro[kThetaSlot] = theta_g;
+  J.gyro[kVelocitySlot] =
+      Cross(ToLane(x_.v), theta_g) - R_dt * ToLanes(dt * u.series.GammaDerivative(1, u.a));
+  J.gyro[kPositionSlot] =
+      Cross(ToLane(x_.p), theta_g) - R_dt * ToLanes(dt * dt * u.series.GammaDerivative(2, u.a));
+  J.accel_velocity = theta_g;
+  J.accel_position = -1.0 * (R_dt * ToLanes(dt * u.G2));
+  for (const Slot slot : P_.active()) {
+    if (IsFoot(slot)) J.gyro[slot] = Cross(ToLane(x_.At(slot)), theta_g);
+  }
+  P_.AddBiases(J, noise.gyro / (2.0 * dt), noise.accel / (2.0 * dt));
+  P_.AddDiagonal(kGyroBiasSlot, noise.gyro_walk * dt);
+  P_.AddDiagonal(kAccelBiasSlot, noise.accel_walk * dt);
 }
 
-void RightInvariantEkf::Retract(const ErrorVector& increment) {
-  const Vector3d theta = increment.segment<3>(kTheta);
-  const Matrix3d turn = Exp(theta);
-  const Matrix3d J = LeftJacobian(theta);
+void RightInvariantEkf::Retract(const SlotVector& increment) {
+  const RotationSeries theta(ToEigen(increment[kThetaSlot]));
+  const Matrix3d turn = theta.Gamma(0);
+  const Matrix3d J = theta.Gamma(1);
   x_.R = turn * x_.R;
-  x_.v = turn * x_.v + J * increment.segment<3>(kVelocity);
-  x_.p = turn * x_.p + J * increment.segment<3>(kPosition);
-  x_.gyro_bias += increment.segment<3>(kGyroBias);
-  x_.accel_bias += increment.segment<3>(kAccelBias);
+  for (const Slot slot : P_.active()) {
+    if (slot == kThetaSlot || slot >= kGyroBiasSlot) continue;
+    x_.At(slot) = turn * x_.At(slot) + J * ToEigen(increment[slot]);
+  }
+  x_.gyro_bias += ToEigen(increment[kGyroBiasSlot]);
+  x_.accel_bias += ToEigen(increment[kAccelBiasSlot]);
 }
 
 ErrorCovariance RightInvariantEkf::BodyCovariance(const Vector3d& r_IB, const Vector3d& /*w*/,
                                                   double gyro_variance) const {
   // θ and position keep their form; ξ_vB = ξ_v + R [r]× ζ_g, and the gyroscope's own noise.
   const Matrix3d A = x_.R * Skew(r_IB);
-  ErrorCovariance P = P_;
-  P.middleRows<3>(kVelocity) += A * P_.middleRows<3>(kGyroBias);
+  const ErrorCovariance dense = P_.Dense();
+  ErrorCovariance P = dense;
+  P.middleRows<3>(kVelocity) += A * dense.middleRows<3>(kGyroBias);
   P.middleCols<3>(kVelocity) += P.middleCols<3>(kGyroBias).eval() * A.transpose();
   P.block<3, 3>(kVelocity, kVelocity) += gyro_variance * A * A.transpose();
   return P;

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "reckon/estimator/estimate.h"
+#include "reckon/estimator/kalman.h"
 #include "reckon/estimator/linearisation.h"
 #include "reckon/estimator/navigation_state.h"
 
@@ -18,7 +19,7 @@ class RightInvariantEkf {
 
   void Start(const NavigationState& x, const ErrorCovariance& P_right_invariant) {
     x_ = x;
-    P_ = P_right_invariant;
+    P_.Start(P_right_invariant);
   }
 
   /// Propagates mean and covariance over one held sample, with the exact Φ of the error
@@ -28,20 +29,24 @@ class RightInvariantEkf {
   ///     v   [g]×Δt      I           v_g    θ_g
   ///     p  ½[g]×Δt²    IΔt    I     p_g    p_a
   ///
-  /// θ_g = −R Γ1 Δt, v_g = [v⁺]× θ_g − R ∂(Γ1 a)/∂φ Δt², p_g = [p⁺]× θ_g − R ∂(Γ2 a)/∂φ Δt³,
-  /// p_a = −R Γ2 Δt², and the exact noise of a sample that is held: it acts as a bias that lives
-  /// one step, J (Q/Δt) Jᵀ, beside the walk.
+  /// and d_g = [d]× θ_g for a foot, θ_g = −R Γ1 Δt, v_g = [v⁺]× θ_g − R ∂(Γ1 a)/∂φ Δt², p_g = [p⁺]×
+  /// θ_g − R ∂(Γ2 a)/∂φ Δt³, p_a = −R Γ2 Δt², and the exact noise of a sample that is held: it acts
+  /// as a bias that lives one step, J (Q/Δt) Jᵀ, beside the walk.
   void Propagate(const Increment& u, const Eigen::Vector3d& g, const ProcessNoise& noise);
 
   /// The blocks of a measurement in this form's coordinates: as they are.
-  static Linearisation Convert(const Linearisation& m, const NavigationState& /*x*/) { return m; }
+  template <int kRows>
+  static const Linearisation<kRows>& Convert(const Linearisation<kRows>& m,
+                                             const NavigationState& /*x*/) {
+    return m;
+  }
 
   /// X⁺ = exp(ξ) X̂ and b⁺ = b̂ + ζ for the increment K z.
-  void Retract(const ErrorVector& increment);
+  void Retract(const SlotVector& increment);
 
   const NavigationState& x() const { return x_; }
-  const ErrorCovariance& P() const { return P_; }
-  ErrorCovariance& P() { return P_; }
+  const Covariance& P() const { return P_; }
+  Covariance& P() { return P_; }
 
   /// The covariance of the body's error: B's origin lies at `r_IB` in I, and v_B = v + R(ω × r_IB)
   /// with a gyroscope sample of variance `gyro_variance`.
@@ -50,7 +55,7 @@ class RightInvariantEkf {
 
  private:
   NavigationState x_;
-  ErrorCovariance P_ = ErrorCovariance::Zero();
+  Covariance P_;
 };
 
 }  // namespace reckon::estimator

@@ -4,6 +4,7 @@
 #include <span>
 #include <string_view>
 
+#include "reckon/estimator/estimate.h"
 #include "reckon/estimator/prior.h"
 #include "reckon/models/suite.h"
 
@@ -62,6 +63,7 @@ struct Initialisation {
 /// Everything that a filter is told before its first measurement: beliefs only.
 struct Setup {
   models::Suite suite;
+  ErrorForm error = ErrorForm::kRightInvariant;  ///< of the invariant filters
   Noise noise;
   Gate gate;
   Initialisation initialisation;

@@ -49,11 +49,34 @@ double Slope(const Series& f, int m) { return 0.5 * (m * f[m + 2] - f[m + 1]); }
 
 }  // namespace
 
-Matrix3d Gamma(int m, const Vector3d& phi) {
+RotationSeries::RotationSeries(const Vector3d& phi) : phi_(phi), f_(Evaluate(phi.squaredNorm())) {}
+
+Matrix3d RotationSeries::Gamma(int m) const {
   assert(m >= 0 && m <= 3);
-  const Series f = Evaluate(phi.squaredNorm());
-  const Matrix3d P = Skew(phi);
-  return kInverseFactorial[m] * Matrix3d::Identity() + f[m + 1] * P + f[m + 2] * P * P;
+  const double one = kInverseFactorial[m], first = f_[m + 1], second = f_[m + 2];
+  // φ× φ× = φ φᵀ − |φ|² I.
+  Matrix3d gamma = (second * phi_) * phi_.transpose();
+  gamma.diagonal().array() += one - second * phi_.squaredNorm();
+  gamma += first * Skew(phi_);
+  return gamma;
+}
+
+Matrix3d RotationSeries::LeftJacobianInverse() const {
+  const Matrix3d P = Skew(phi_);
+  return Matrix3d::Identity() - 0.5 * P + (f_[3] - 2.0 * f_[4]) / (2.0 * f_[2]) * P * P;
+}
+
+Matrix3d RotationSeries::GammaDerivative(int m, const Vector3d& a) const {
+  assert(m >= 1 && m <= 2);
+  const Vector3d once = phi_.cross(a);
+  const Vector3d twice = phi_.cross(once);
+  // [φ]× [a]× = a φᵀ − (φ·a) I and [φ × a]× = a φᵀ − φ aᵀ.
+  Matrix3d derivative = (-2.0 * f_[m + 2] * a) * phi_.transpose();
+  derivative += (f_[m + 2] * phi_) * a.transpose();
+  derivative.diagonal().array() += f_[m + 2] * phi_.dot(a);
+  derivative -= f_[m + 1] * Skew(a);
+  derivative += (2.0 * (Slope(f_, m + 1) * once + Slope(f_, m + 2) * twice)) * phi_.transpose();
+  return derivative;
 }
 
 Vector3d Log(const Matrix3d& R) {
@@ -63,21 +86,6 @@ Vector3d Log(const Matrix3d& R) {
   // atan2(s, c)/s → 1/c for small s: the quotient is exact to round-off there.
   const double ratio = sine > 1e-9 ? std::atan2(sine, q.w()) / sine : 1.0 / q.w();
   return 2.0 * ratio * q.vec();
-}
-
-Matrix3d LeftJacobianInverse(const Vector3d& phi) {
-  const Series f = Evaluate(phi.squaredNorm());
-  const Matrix3d P = Skew(phi);
-  return Matrix3d::Identity() - 0.5 * P + (f[3] - 2.0 * f[4]) / (2.0 * f[2]) * P * P;
-}
-
-Matrix3d GammaDerivative(int m, const Vector3d& phi, const Vector3d& a) {
-  assert(m >= 1 && m <= 2);
-  const Series f = Evaluate(phi.squaredNorm());
-  const Vector3d once = phi.cross(a);
-  const Vector3d twice = phi.cross(once);
-  return -f[m + 1] * Skew(a) - f[m + 2] * (Skew(once) + Skew(phi) * Skew(a)) +
-         2.0 * (Slope(f, m + 1) * once + Slope(f, m + 2) * twice) * phi.transpose();
 }
 
 }  // namespace reckon::estimator

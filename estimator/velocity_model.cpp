@@ -2,14 +2,14 @@
 
 namespace reckon::estimator {
 
-Linearisation LinearisedVelocity(const models::BodyVelocitySample& y, const models::Pose& X_IS,
-                                 const TurnRate& turn, const NavigationState& x) {
+Linearisation<3> LinearisedVelocity(const models::BodyVelocitySample& y, const models::Pose& X_IS,
+                                    const TurnRate& turn, const NavigationState& x) {
   const Eigen::Vector3d& r = X_IS.p;
   const Eigen::Matrix3d r_cross = Skew(r);
-  Linearisation m;
+  Linearisation<3> m;
   m.z = x.R * (X_IS.R * y.v_WS_S - turn.w_rad_s.cross(r)) - x.v;
-  m.Add(kVelocity, Eigen::Matrix3d::Identity());
-  m.Add(kGyroBias, x.R * r_cross);
+  m.Plus(kVelocitySlot);
+  m.Block(kGyroBiasSlot, x.R * r_cross);
   const Eigen::Matrix3d N_I =
       X_IS.R * y.covariance * X_IS.R.transpose() + turn.variance * r_cross * r_cross.transpose();
   m.N = x.R * N_I * x.R.transpose();

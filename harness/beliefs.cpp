@@ -45,6 +45,7 @@ estimator::Setup MakeSetup(const EstimatorConfig& config, const InitialConfig& i
       if (wheels && wheels->encoders == sensor) wheels->X_BS = Misplaced(wheels->X_BS, error);
     }
   }
+  setup.error = config.error;
   setup.noise = config.noise;
   setup.gate = config.gate;
   setup.initialisation = config.initialisation;

@@ -87,7 +87,8 @@ std::span<const Choice<estimator::InitialisationKind>> Choices() {
 template <>
 std::span<const Choice<estimator::ErrorForm>> Choices() {
   static const std::vector<Choice<estimator::ErrorForm>> kChoices{
-      {estimator::ErrorForm::kRightInvariant, "right", "right-invariant"}};
+      {estimator::ErrorForm::kRightInvariant, "right", "right-invariant"},
+      {estimator::ErrorForm::kLeftInvariant, "left", "left-invariant"}};
   return kChoices;
 }
 

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "estimator/dense.h"
 #include "estimator/draws.h"
 #include "estimator/reference.h"
 #include "reckon/estimator/kalman.h"
@@ -13,37 +14,40 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+using testing_estimator::BySlots;
+using testing_estimator::DenseH;
+using testing_estimator::DenseIncrement;
 using testing_estimator::Draws;
 using testing_estimator::Mat15;
 using testing_estimator::Real;
 using testing_estimator::UsualSigma;
 using testing_estimator::WorstCorrelationError;
 
-using DenseH = Eigen::Matrix<Real, 3, 15>;
 using Dense3 = Eigen::Matrix<Real, 3, 3>;
 
-/// A random measurement of velocity and two blocks beside it, with noise of this variance.
-Linearisation RandomMeasurement(Draws& draws, double variance) {
-  Linearisation m;
+/// A random measurement of velocity less position, and two blocks beside them, with noise of this
+/// variance.
+Linearisation<3> RandomMeasurement(Draws& draws, double variance) {
+  Linearisation<3> m;
   m.z = draws.Vector(0.05);
-  m.Add(kVelocity, Matrix3d::Identity());
-  m.Add(kGyroBias, Skew(draws.Vector(0.3)));
-  m.Add(kTheta, Skew(draws.Vector(0.5)));
+  m.Plus(kVelocitySlot);
+  m.Minus(kPositionSlot);
+  m.Block(kGyroBiasSlot, Skew(draws.Vector(0.3)));
+  m.Block(kThetaSlot, Skew(draws.Vector(0.5)));
   m.N = draws.Covariance<3>(std::sqrt(variance) * Vector3d::Ones());
   return m;
 }
 
 struct Textbook {
-  Textbook(const ErrorCovariance& prior, const Linearisation& m) {
-    H.setZero();
-    for (const Block& b : m.blocks()) H.middleCols<3>(b.slot) += b.H.cast<Real>();
+  Textbook(const ErrorCovariance& prior, const Linearisation<3>& m) {
+    H = DenseH(m);
     const Mat15 P0 = prior.cast<Real>();
     S = H * P0 * H.transpose() + m.N.cast<Real>();
     K = P0 * H.transpose() * S.inverse();
     const Mat15 A = Mat15::Identity() - K * H;
     P = A * P0 * A.transpose() + K * m.N.cast<Real>() * K.transpose();
   }
-  DenseH H;
+  Eigen::Matrix<Real, 3, 15> H;
   Dense3 S;
   Eigen::Matrix<Real, 15, 3> K;
   Mat15 P;
@@ -53,21 +57,23 @@ TEST(KalmanCorrection, IsTheDenseTextbookOne) {
   Draws draws(21);
   for (int i = 0; i < 50; ++i) {
     ErrorCovariance P = draws.Covariance<15>(UsualSigma());
-    const Linearisation m = RandomMeasurement(draws, 1e-4);
+    const Linearisation<3> m = RandomMeasurement(draws, 1e-4);
     const Textbook expected(P, m);
-    const KalmanCorrection kalman(P, m);
+    Covariance slots = BySlots(P);
+    const KalmanCorrection kalman(slots, m);
     const auto z = m.z.cast<Real>().eval();
     EXPECT_LT(WorstCorrelationError(kalman.S(), expected.S), 1e-14);
     EXPECT_NEAR(kalman.nis(), static_cast<double>(z.dot(expected.S.inverse() * z)),
                 1e-13 * kalman.nis());
     const auto gain = (expected.K * z).eval();
     const auto deviation = expected.P.diagonal().cwiseSqrt().eval();
-    EXPECT_LT(
-        static_cast<double>(
-            (kalman.Gain().cast<Real>() - gain).cwiseQuotient(deviation).cwiseAbs().maxCoeff()),
-        1e-12);
-    kalman.UpdateCovariance(P);
-    EXPECT_LT(WorstCorrelationError(P, expected.P), 1e-12);
+    EXPECT_LT(static_cast<double>((DenseIncrement(kalman.Gain()).cast<Real>() - gain)
+                                      .cwiseQuotient(deviation)
+                                      .cwiseAbs()
+                                      .maxCoeff()),
+              1e-12);
+    kalman.UpdateCovariance(slots);
+    EXPECT_LT(WorstCorrelationError(slots.Dense(), expected.P), 1e-12);
   }
 }
 
@@ -79,8 +85,8 @@ double WorstError(double ratio, const Update& update) {
   double worst = 0.0;
   for (int i = 0; i < 20; ++i) {
     ErrorCovariance P = draws.Covariance<15>(UsualSigma());
-    Linearisation m;
-    m.Add(kVelocity, draws.Rotation());
+    Linearisation<3> m;
+    m.Block(kVelocitySlot, draws.Rotation());
     m.N = draws.Covariance<3>(0.05 / std::sqrt(ratio) * Vector3d::Ones());
     const Textbook expected(P, m);
     update(P, m);
@@ -90,8 +96,10 @@ double WorstError(double ratio, const Update& update) {
 }
 
 TEST(KalmanCorrection, KeepsItsDigitsWhenTheMeasurementIsMuchBetterThanThePrior) {
-  const auto ours = [](ErrorCovariance& P, const Linearisation& m) {
-    KalmanCorrection(ErrorCovariance(P), m).UpdateCovariance(P);
+  const auto ours = [](ErrorCovariance& P, const Linearisation<3>& m) {
+    Covariance slots = BySlots(P);
+    KalmanCorrection(slots, m).UpdateCovariance(slots);
+    P = slots.Dense();
   };
   EXPECT_LT(WorstError(1e2, ours), 1e-12);
   EXPECT_LT(WorstError(1e6, ours), 1e-12);
@@ -100,11 +108,10 @@ TEST(KalmanCorrection, KeepsItsDigitsWhenTheMeasurementIsMuchBetterThanThePrior)
 
 TEST(KalmanCorrection, TheShortFormWouldLoseThem) {
   // Negative control: P − K S Kᵀ.
-  const auto shorter = [](ErrorCovariance& P, const Linearisation& m) {
-    Eigen::Matrix<double, 15, 3> C = Eigen::Matrix<double, 15, 3>::Zero();
-    for (const Block& b : m.blocks()) C += P.middleCols<3>(b.slot) * b.H.transpose();
-    Matrix3d S = m.N;
-    for (const Block& b : m.blocks()) S += b.H * C.middleRows<3>(b.slot);
+  const auto shorter = [](ErrorCovariance& P, const Linearisation<3>& m) {
+    const Eigen::Matrix<double, 3, 15> H = DenseH(m).cast<double>();
+    const Eigen::Matrix<double, 15, 3> C = P * H.transpose();
+    const Matrix3d S = H * C + m.N;
     P -= C * S.inverse() * C.transpose();
   };
   EXPECT_GT(WorstError(1e10, shorter), 1e-7);
@@ -114,8 +121,10 @@ TEST(KalmanCorrection, AThousandOfThemStayPositiveDefinite) {
   Draws draws(23);
   ErrorCovariance P = draws.Covariance<15>(UsualSigma());
   for (int i = 0; i < 1000; ++i) {
-    const Linearisation m = RandomMeasurement(draws, 1e-12);
-    KalmanCorrection(ErrorCovariance(P), m).UpdateCovariance(P);
+    const Linearisation<3> m = RandomMeasurement(draws, 1e-12);
+    Covariance slots = BySlots(P);
+    KalmanCorrection(slots, m).UpdateCovariance(slots);
+    P = slots.Dense();
     P.diagonal() += 1e-3 * UsualSigma().cwiseAbs2();
   }
   EXPECT_EQ(P, P.transpose());
@@ -127,22 +136,23 @@ TEST(KalmanCorrection, AThousandOfThemStayPositiveDefinite) {
 TEST(KalmanCorrection, InflatingPutsTheInnovationOnTheGatesEdge) {
   Draws draws(24);
   const ErrorCovariance P0 = draws.Covariance<15>(UsualSigma());
-  Linearisation m = RandomMeasurement(draws, 1e-4);
+  Linearisation<3> m = RandomMeasurement(draws, 1e-4);
   m.z = Vector3d(3, -2, 1);
-  KalmanCorrection kalman(P0, m);
+  Covariance slots = BySlots(P0);
+  KalmanCorrection kalman(slots, m);
   const double nis = kalman.nis();
   kalman.Inflate(20.0);
   EXPECT_EQ(kalman.nis(), nis) << "the report keeps what was found before the gate";
   // The same correction from scratch, with the noise that makes NIS 20.
-  Linearisation widened = m;
+  Linearisation<3> widened = m;
   widened.N += (nis / 20.0 - 1.0) * kalman.S();
   const Textbook expected(P0, widened);
   const auto z = m.z.cast<Real>().eval();
   EXPECT_NEAR(static_cast<double>(z.dot(expected.S.inverse() * z)), 20.0, 1e-10);
-  ErrorCovariance P = P0;
-  kalman.UpdateCovariance(P);
-  EXPECT_LT(WorstCorrelationError(P, expected.P), 1e-12);
-  EXPECT_LT((kalman.Gain() - (expected.K * z).cast<double>()).norm(), 1e-12);
+  const ErrorVector gain = DenseIncrement(kalman.Gain());
+  kalman.UpdateCovariance(slots);
+  EXPECT_LT(WorstCorrelationError(slots.Dense(), expected.P), 1e-12);
+  EXPECT_LT((gain - (expected.K * z).cast<double>()).norm(), 1e-12);
 }
 
 }  // namespace

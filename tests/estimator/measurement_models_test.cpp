@@ -2,8 +2,10 @@
 
 #include <cmath>
 
+#include "estimator/dense.h"
 #include "estimator/draws.h"
 #include "estimator/reference.h"
+#include "reckon/estimator/left_invariant_ekf.h"
 #include "reckon/estimator/multiplicative_ekf.h"
 #include "reckon/estimator/right_invariant_ekf.h"
 #include "reckon/estimator/velocity_model.h"
@@ -14,25 +16,18 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+using testing_estimator::DenseH;
 using testing_estimator::Draws;
 using testing_estimator::Real;
 using testing_estimator::Vec15;
 using testing_estimator::Vec3;
 using testing_estimator::Widened;
 
-using DenseH = Eigen::Matrix<Real, 3, 15>;
-
-DenseH Dense(const Linearisation& m) {
-  DenseH H = DenseH::Zero();
-  for (const Block& b : m.blocks()) H.middleCols<3>(b.slot) += b.H.cast<Real>();
-  return H;
-}
-
 models::Pose RandomMounting(Draws& draws) { return {draws.Rotation(), draws.Vector(0.5)}; }
 
 template <class Core>
 class VelocityRows : public ::testing::Test {};
-using Cores = ::testing::Types<RightInvariantEkf, MultiplicativeEkf>;
+using Cores = ::testing::Types<RightInvariantEkf, LeftInvariantEkf, MultiplicativeEkf>;
 TYPED_TEST_SUITE(VelocityRows, Cores);
 
 TYPED_TEST(VelocityRows, AreTheNumericalOnes) {
@@ -51,15 +46,15 @@ TYPED_TEST(VelocityRows, AreTheNumericalOnes) {
           (truth.R.transpose() * truth.v + (gyro.cast<Real>() - truth.bg).cross(r)).eval();
       return hat.R * (y - (gyro.cast<Real>() - hat.bg).cross(r)) - hat.v;
     };
-    const DenseH expected = -testing_estimator::Differences<3>(innovation);
+    const Eigen::Matrix<Real, 3, 15> expected = -testing_estimator::Differences<3>(innovation);
 
     models::BodyVelocitySample y;
     y.v_WS_S = X_IS.R.transpose() * (x.R.transpose() * x.v + (gyro - x.gyro_bias).cross(X_IS.p));
     y.covariance = Matrix3d::Identity();
-    const Linearisation m =
+    const Linearisation<3> m =
         TypeParam::Convert(LinearisedVelocity(y, X_IS, {gyro - x.gyro_bias, 0.0}, x), x);
     EXPECT_LT(m.z.norm(), 1e-14) << "a measurement that agrees";
-    EXPECT_LT(static_cast<double>((Dense(m) - expected).cwiseAbs().maxCoeff()), 1e-11);
+    EXPECT_LT(static_cast<double>((DenseH(m) - expected).cwiseAbs().maxCoeff()), 1e-11);
   }
 }
 
@@ -72,7 +67,7 @@ TEST(VelocityModel, InnovationIsTheDisagreementInWorldAxes) {
   models::BodyVelocitySample y;
   y.v_WS_S = {-1.25, 0, 0};
   y.covariance = Vector3d(1, 4, 9).asDiagonal();
-  const Linearisation m = LinearisedVelocity(y, X_IS, {}, x);
+  const Linearisation<3> m = LinearisedVelocity(y, X_IS, {}, x);
   EXPECT_LT((m.z - Vector3d(0, 0.25, 0)).norm(), 1e-15);
   // The sensor's x is the world's −y.
   EXPECT_LT((m.N - Matrix3d(Vector3d(4, 1, 9).asDiagonal())).norm(), 1e-14);
@@ -83,7 +78,8 @@ TEST(VelocityModel, NoiseIncludesThatOfTheGyroscopeOverTheLeverArm) {
   const models::Pose X_IS{Matrix3d::Identity(), Vector3d(2, 0, 0)};
   models::BodyVelocitySample y;
   y.covariance = 0.01 * Matrix3d::Identity();
-  const Linearisation m = LinearisedVelocity(y, X_IS, {Vector3d::Zero(), 0.25}, NavigationState{});
+  const Linearisation<3> m =
+      LinearisedVelocity(y, X_IS, {Vector3d::Zero(), 0.25}, NavigationState{});
   EXPECT_LT((m.N - Matrix3d(Vector3d(0.01, 1.01, 1.01).asDiagonal())).norm(), 1e-15);
 }
 

@@ -5,6 +5,7 @@
 
 #include "estimator/draws.h"
 #include "estimator/reference.h"
+#include "reckon/estimator/left_invariant_ekf.h"
 #include "reckon/estimator/multiplicative_ekf.h"
 #include "reckon/estimator/right_invariant_ekf.h"
 
@@ -48,13 +49,13 @@ template <class Core>
 Core At(const NavigationState& x, const ErrorCovariance& P) {
   Core core;
   core.Start(x, ErrorCovariance::Zero());
-  core.P() = P;
+  core.P().Start(P);
   return core;
 }
 
 template <class Core>
 class Propagation : public ::testing::Test {};
-using Cores = ::testing::Types<RightInvariantEkf, MultiplicativeEkf>;
+using Cores = ::testing::Types<RightInvariantEkf, LeftInvariantEkf, MultiplicativeEkf>;
 TYPED_TEST_SUITE(Propagation, Cores);
 
 TYPED_TEST(Propagation, MovesTheMeanAsTheTextbookDoes) {
@@ -94,7 +95,7 @@ TYPED_TEST(Propagation, CovarianceIsTheDenseTextbookOfNumericalJacobians) {
           Phi * c.P.cast<Real>() * Phi.transpose() + J * q.asDiagonal() * J.transpose();
       expected.diagonal().segment<3>(kGyroBias).array() += noise.gyro_walk * dt;
       expected.diagonal().segment<3>(kAccelBias).array() += noise.accel_walk * dt;
-      EXPECT_LT(testing_estimator::WorstCorrelationError(core.P(), expected), 1e-12) << dt;
+      EXPECT_LT(testing_estimator::WorstCorrelationError(core.P().Dense(), expected), 1e-12) << dt;
     }
   }
 }
@@ -125,7 +126,7 @@ TYPED_TEST(Propagation, StepNoiseIsTheQuadratureOverTheHeldSample) {
   // The quadrature sees the curvature of the step: (σ Δt)² relative, and the second-order part of
   // the coordinates, larger in position where the state is tens of metres from the origin.
   for (const int block : {0, 3, 6}) {
-    const Eigen::Matrix3d ours = core.P().template block<3, 3>(block, block);
+    const Eigen::Matrix3d ours = core.P().Dense().template block<3, 3>(block, block);
     const Eigen::Matrix3d theirs =
         expected.template block<3, 3>(block, block).template cast<double>();
     EXPECT_LT((ours - theirs).norm(), 1e-8 * theirs.norm()) << block;
@@ -142,11 +143,10 @@ TYPED_TEST(Propagation, StaysSymmetricAndPositiveDefinite) {
     const Vector3d hover = core.x().R.transpose() * Vector3d(0, 0, kGravity);
     core.Propagate({gyro, hover + draws.Vector(), c.dt}, kDown, noise);
   }
-  EXPECT_LT((core.P() - core.P().transpose()).cwiseAbs().maxCoeff(),
-            1e-12 * core.P().diagonal().maxCoeff());
-  const Vec15 scale = core.P().diagonal().cwiseSqrt().cwiseInverse().template cast<Real>();
-  const Mat15 correlation =
-      scale.asDiagonal() * core.P().template cast<Real>() * scale.asDiagonal();
+  const ErrorCovariance P = core.P().Dense();
+  EXPECT_LT((P - P.transpose()).cwiseAbs().maxCoeff(), 1e-12 * P.diagonal().maxCoeff());
+  const Vec15 scale = P.diagonal().cwiseSqrt().cwiseInverse().template cast<Real>();
+  const Mat15 correlation = scale.asDiagonal() * P.template cast<Real>() * scale.asDiagonal();
   EXPECT_EQ(Eigen::LLT<Mat15>(correlation).info(), Eigen::Success);
   EXPECT_LT((core.x().R.transpose() * core.x().R - Eigen::Matrix3d::Identity()).norm(), 1e-12);
 }
@@ -157,10 +157,12 @@ template <class Core>
 Eigen::Matrix<double, 9, 9> TopLeftOfPhi(const Case& c) {
   Eigen::Matrix<double, 9, 9> Phi;
   for (int j = 0; j < 9; ++j) {
-    auto core = At<Core>(c.x, ErrorCovariance::Zero());
-    core.P()(j, j) = 1.0;
+    ErrorCovariance P = ErrorCovariance::Zero();
+    P(j, j) = 1.0;
+    auto core = At<Core>(c.x, P);
     core.Propagate(c.Sample(), kDown, {});
-    Phi.col(j) = core.P().template block<9, 1>(0, j) / std::sqrt(core.P()(j, j));
+    P = core.P().Dense();
+    Phi.col(j) = P.block<9, 1>(0, j) / std::sqrt(P(j, j));
   }
   return Phi;
 }
