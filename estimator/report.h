@@ -44,7 +44,7 @@ inline constexpr int kMaxCorrections = 8;
 /// gate changed it. Only the first `rows` entries count. The axes are those in which the filter
 /// forms the innovation (the body's for velocities); NIS does not depend on them.
 struct Correction {
-  models::TimeNs t_ns = 0;
+  models::TimeNs t_ns = 0;  ///< when the measurement was true: its valid stamp
   models::SensorId sensor = 0;
   Decision decision = Decision::kAccepted;
   Refusal reason = Refusal::kNone;

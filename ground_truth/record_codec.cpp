@@ -1,7 +1,33 @@
 #include "reckon/ground_truth/record_codec.h"
 
+#include <fmt/format.h>
+
+#include "reckon/ground_truth/recording_columns.h"
+#include "reckon/ground_truth/run_recorder.h"
+
 namespace reckon::ground_truth {
 namespace {
+
+/// The next number, which must lie in [least, end).
+template <class Stored>
+Stored GetWithin(RowDecoder& row, std::string_view column, std::size_t least, std::size_t end) {
+  const Stored number = row.Get<Stored>();
+  if (number < least || number >= end) {
+    throw RecordingError(fmt::format("damaged: {} is {}, expected {} to {}", column, number, least,
+                                     static_cast<std::int64_t>(end) - 1));
+  }
+  return number;
+}
+
+/// The next number as the entry of a list of names that it stands for.
+template <class Enum>
+Enum GetNamed(RowDecoder& row, std::string_view column, std::span<const std::string_view> names) {
+  return static_cast<Enum>(GetWithin<std::uint8_t>(row, column, 0, names.size()));
+}
+
+models::SensorId GetSensor(RowDecoder& row, std::size_t sensors) {
+  return GetWithin<models::SensorId>(row, "sensor", 0, sensors);
+}
 
 void Put(const models::ImuSample& sample, RowEncoder& row) {
   row.Put(sample.gyro_rad_s);
@@ -175,24 +201,34 @@ estimator::Estimate DecodeEstimate(RowDecoder& row, std::int64_t* covariance_row
   GetPose(estimate, row);
   GetBiases(estimate, row);
   *covariance_row = row.Get<std::int64_t>();
-  estimate.form = static_cast<estimator::ErrorForm>(row.Get<std::uint8_t>());
+  estimate.form = GetNamed<estimator::ErrorForm>(row, "error_form", ErrorFormNames());
   estimate.has_covariance = row.Flag();
   estimate.has_biases = row.Flag();
   return estimate;
 }
 
-estimator::Correction DecodeCorrection(RowDecoder& row) {
+estimator::Correction DecodeCorrection(RowDecoder& row, std::size_t sensors) {
   estimator::Correction correction;
   correction.t_ns = row.Get<models::TimeNs>();
   (void)row.Get<std::uint64_t>();
-  correction.sensor = row.Get<models::SensorId>();
-  correction.decision = static_cast<estimator::Decision>(row.Get<std::uint8_t>());
-  correction.reason = static_cast<estimator::Refusal>(row.Get<std::uint8_t>());
-  correction.rows = row.Get<std::uint8_t>();
+  correction.sensor = GetSensor(row, sensors);
+  correction.decision = GetNamed<estimator::Decision>(row, "decision", DecisionNames());
+  correction.reason = GetNamed<estimator::Refusal>(row, "reason", RefusalNames());
+  correction.rows = GetWithin<std::uint8_t>(row, "rows", 1, estimator::kMaxRows + 1);
   correction.innovation = row.Vector();
   row.GetSymmetric(correction.covariance);
   correction.nis = row.Get<double>();
   return correction;
+}
+
+RefusedMeasurement DecodeRefusal(RowDecoder& row, std::size_t sensors) {
+  RefusedMeasurement refused;
+  refused.valid_ns = row.Get<models::TimeNs>();
+  refused.arrival_ns = row.Get<models::TimeNs>();
+  (void)row.Get<std::uint64_t>();
+  refused.sensor = GetSensor(row, sensors);
+  refused.reason = GetNamed<estimator::Refusal>(row, "reason", RefusalNames());
+  return refused;
 }
 
 estimator::Prior DecodePrior(RowDecoder& row) {

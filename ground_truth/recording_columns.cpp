@@ -157,7 +157,8 @@ Columns EstimateColumns() {
 Columns CorrectionColumns() {
   Columns columns;
   AddTime(columns, "t_ns", "when the measurement was true");
-  Add(columns, "measurement", Type::kUint64, "1", "the measurement's `order`");
+  Add(columns, "measurement", Type::kUint64, "1",
+      "the measurement's `order`; 2^64 - 1: not among the sensor's newest");
   Add(columns, "sensor", Type::kUint16, "1", "see sensor_names");
   Add(columns, "decision", Type::kUint8, "1", "see decision_names");
   Add(columns, "reason", Type::kUint8, "1", "see refusal_names");

@@ -21,7 +21,8 @@ struct RecordingPlan {
   std::vector<std::string> estimators;
   std::vector<std::string> wheels;  ///< a name for each wheel of the truth
   bool truth = true, measurements = true, estimates = true, covariance = true, corrections = true;
-  models::TimeNs truth_period_ns = 0;     ///< truth is kept at multiples of this; 0: every instant
+  /// The first row at or after each multiple of this is kept; 0: every instant.
+  models::TimeNs truth_period_ns = 0;
   models::TimeNs estimate_period_ns = 0;  ///< likewise for estimates
   /// Texts that the file carries: versions, the resolved scenario.
   std::vector<std::pair<std::string, std::string>> attributes;

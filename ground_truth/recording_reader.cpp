@@ -23,6 +23,17 @@ Cursor<Row> Nothing() {
   return Cursor<Row>([]() -> std::optional<Row> { return std::nullopt; });
 }
 
+/// What `decode` makes of `row`, which `table` gave last; says where it is if it is damaged.
+template <class Decode>
+auto Decoded(const TableReader& table, const std::byte* row, const Decode& decode) {
+  RowDecoder decoder(row);
+  try {
+    return decode(decoder);
+  } catch (const RecordingError& error) {
+    throw RecordingError(fmt::format("{}: {}", table.Place(), error.what()));
+  }
+}
+
 /// A cursor over `table`; `decode` turns a RowDecoder into a row.
 template <class Row, class Decode>
 Cursor<Row> Over(std::shared_ptr<const void> keep, std::shared_ptr<TableReader> table,
@@ -31,8 +42,7 @@ Cursor<Row> Over(std::shared_ptr<const void> keep, std::shared_ptr<TableReader> 
       [keep = std::move(keep), table = std::move(table), decode]() mutable -> std::optional<Row> {
         const std::byte* row = table->Next();
         if (row == nullptr) return std::nullopt;
-        RowDecoder decoder(row);
-        return decode(decoder);
+        return Decoded(*table, row, decode);
       });
 }
 
@@ -240,9 +250,10 @@ Cursor<estimator::Estimate> RecordingReader::ReadEstimates(std::size_t estimator
       [keep = impl_, states, covariances]() -> std::optional<estimator::Estimate> {
         const std::byte* row = states->Next();
         if (row == nullptr) return std::nullopt;
-        RowDecoder decoder(row);
         std::int64_t covariance_row = -1;
-        estimator::Estimate estimate = DecodeEstimate(decoder, &covariance_row);
+        estimator::Estimate estimate = Decoded(*states, row, [&](RowDecoder& decoder) {
+          return DecodeEstimate(decoder, &covariance_row);
+        });
         estimate.has_covariance = covariance_row >= 0;
         if (!estimate.has_covariance) return estimate;
         const std::byte* const triangle = covariances ? covariances->Next() : nullptr;
@@ -256,21 +267,17 @@ Cursor<estimator::Correction> RecordingReader::ReadCorrections(std::size_t estim
   const std::string name = impl_->Group(estimator) + "/corrections";
   if (!impl_->Has(name)) return Nothing<estimator::Correction>();
   return Over<estimator::Correction>(impl_, impl_->Table(name, CorrectionColumns()),
-                                     DecodeCorrection);
+                                     [sensors = impl_->mounted().size()](RowDecoder& row) {
+                                       return DecodeCorrection(row, sensors);
+                                     });
 }
 
 Cursor<RefusedMeasurement> RecordingReader::ReadRefusals(std::size_t estimator) const {
   const std::string name = impl_->Group(estimator) + "/refusals";
   if (!impl_->Has(name)) return Nothing<RefusedMeasurement>();
-  return Over<RefusedMeasurement>(impl_, impl_->Table(name, RefusalColumns()), [](RowDecoder& row) {
-    RefusedMeasurement refused;
-    refused.valid_ns = row.Get<models::TimeNs>();
-    refused.arrival_ns = row.Get<models::TimeNs>();
-    (void)row.Get<std::uint64_t>();
-    refused.sensor = row.Get<models::SensorId>();
-    refused.reason = static_cast<estimator::Refusal>(row.Get<std::uint8_t>());
-    return refused;
-  });
+  return Over<RefusedMeasurement>(
+      impl_, impl_->Table(name, RefusalColumns()),
+      [sensors = impl_->mounted().size()](RowDecoder& row) { return DecodeRefusal(row, sensors); });
 }
 
 std::optional<estimator::Prior> RecordingReader::ReadPrior(std::size_t estimator) const {

@@ -39,7 +39,8 @@ struct RefusedMeasurement {
 };
 
 /// Reads what RunRecorder wrote, also while it is written and after its writer was killed.
-/// Everything comes back bit by bit. A stream that the plan left out gives no rows.
+/// Everything comes back bit by bit. A stream that the plan left out gives no rows. A row with a
+/// number that stands for nothing (the file is damaged) throws RecordingError.
 class RecordingReader {
  public:
   /// Throws RecordingError if the file is missing or no recording.

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "reckon/ground_truth/hdf5_handle.h"
+#include "reckon/ground_truth/newest_orders.h"
 #include "reckon/ground_truth/record_codec.h"
 #include "reckon/ground_truth/recording_columns.h"
 #include "reckon/ground_truth/table_writer.h"
@@ -36,8 +38,29 @@ std::size_t ChunkRows(std::size_t row_bytes) {
   return std::clamp<std::size_t>(RunRecorder::kChunkBytes / row_bytes, 1, RunRecorder::kChunkRows);
 }
 
+/// Thins rows: the first at or after each multiple of a period is due. Rows whose stamps never hit
+/// a multiple (another rate, a clock with jitter) are thinned like those that do.
+class Thinning {
+ public:
+  /// A period of 0 keeps every row.
+  explicit Thinning(models::TimeNs period_ns = 0) : period_ns_(period_ns) {}
+
+  bool IsDue(models::TimeNs t_ns) {
+    if (period_ns_ <= 0) return true;
+    if (t_ns < next_ns_) return false;
+    const models::TimeNs since_ns = ((t_ns % period_ns_) + period_ns_) % period_ns_;
+    next_ns_ = t_ns - since_ns + period_ns_;
+    return true;
+  }
+
+ private:
+  models::TimeNs period_ns_;
+  models::TimeNs next_ns_ = std::numeric_limits<models::TimeNs>::min();
+};
+
 /// The tables of one estimator.
 struct EstimatorTables {
+  Thinning thinning;
   std::optional<TableWriter> state, covariance, corrections, refusals, prior, prior_covariance;
   std::int64_t covariance_rows = 0;
 };
@@ -47,7 +70,11 @@ struct EstimatorTables {
 class RunRecorder::Impl {
  public:
   Impl(const std::filesystem::path& path, RecordingPlan plan)
-      : path_(path), plan_(std::move(plan)), file_(CreateFile(path)) {
+      : path_(path),
+        plan_(std::move(plan)),
+        file_(CreateFile(path)),
+        truth_thinning_(plan_.truth_period_ns),
+        orders_(plan_.sensors.size()) {
     DescribeFile();
     if (plan_.truth) MakeTruth();
     if (plan_.measurements) MakeMeasurements();
@@ -65,7 +92,7 @@ class RunRecorder::Impl {
   }
 
   void Add(const Truth& truth) {
-    if (!truth_ || !IsDue(truth.t_ns, plan_.truth_period_ns)) return;
+    if (!truth_ || !truth_thinning_.IsDue(truth.t_ns)) return;
     const auto wheels = static_cast<Eigen::Index>(plan_.wheels.size());
     if (truth.wheel_rate_rad_s.size() != wheels || truth.wheel_slip_m_s.size() != wheels ||
         truth.wheel_load_n.size() != wheels) {
@@ -75,16 +102,17 @@ class RunRecorder::Impl {
   }
 
   void Add(const models::Measurement& measurement) {
-    const std::uint64_t order = next_order_++;
-    if (!plan_.measurements) return;
     CheckShape(measurement);
+    const std::uint64_t order = next_order_++;
+    orders_.Add(measurement.sensor, measurement.valid_ns, order);
+    if (!plan_.measurements) return;
     measurements_[measurement.sensor].Append(
         [&](RowEncoder& row) { Encode(measurement, order, row); });
   }
 
   void Add(std::size_t index, const estimator::Estimate& estimate) {
     EstimatorTables& tables = estimators_.at(index);
-    if (!tables.state || !IsDue(estimate.t_ns, plan_.estimate_period_ns)) return;
+    if (!tables.state || !tables.thinning.IsDue(estimate.t_ns)) return;
     const bool covariance = tables.covariance && estimate.has_covariance;
     const std::int64_t covariance_row = covariance ? tables.covariance_rows++ : -1;
     if (covariance) {
@@ -98,12 +126,13 @@ class RunRecorder::Impl {
            const estimator::Report& report) {
     EstimatorTables& tables = estimators_.at(index);
     if (!tables.corrections) return;
-    const std::uint64_t order = next_order_ - 1;  // of the measurement added last
     for (const estimator::Correction& correction : report.corrections()) {
+      const std::uint64_t order = orders_.Find(correction.sensor, correction.t_ns);
       tables.corrections->Append([&](RowEncoder& row) { Encode(correction, order, row); });
     }
     if (report.refusal != estimator::Refusal::kNone &&
         report.refusal != estimator::Refusal::kUnused) {
+      const std::uint64_t order = next_order_ - 1;  // of the measurement added last
       tables.refusals->Append(
           [&](RowEncoder& row) { Encode(measurement, report.refusal, order, row); });
     }
@@ -139,10 +168,6 @@ class RunRecorder::Impl {
     bool closed = true;
     ForEachTable([&closed](TableWriter& table) { closed = table.Close() && closed; });
     return file_.Close() && closed;
-  }
-
-  static bool IsDue(models::TimeNs t_ns, models::TimeNs period_ns) {
-    return period_ns <= 0 || t_ns % period_ns == 0;
   }
 
   void CheckShape(const models::Measurement& measurement) const {
@@ -228,6 +253,7 @@ class RunRecorder::Impl {
     EstimatorTables& tables = estimators_[index];
     const std::string group = "estimates/" + plan_.estimators[index];
     MakeGroup(group);
+    tables.thinning = Thinning(plan_.estimate_period_ns);
     if (plan_.estimates) {
       tables.state.emplace(MakeTable(group + "/state", EstimateColumns()));
       WriteAttribute(tables.state->dataset(), "error_form_names", Strings(ErrorFormNames()));
@@ -265,9 +291,11 @@ class RunRecorder::Impl {
   RecordingPlan plan_;
   Hdf5Handle file_;
   std::optional<TableWriter> truth_;
+  Thinning truth_thinning_;
   std::vector<TableWriter> measurements_;
   std::vector<EstimatorTables> estimators_;
   std::uint64_t next_order_ = 0;
+  NewestOrders orders_;
   bool closed_ = false;
 };
 

@@ -46,6 +46,8 @@ class RunRecorder {
   /// Call in the order in which estimators are given the measurements: that order is replayed.
   void Add(const models::Measurement& measurement);
   void Add(std::size_t estimator, const estimator::Estimate& estimate);
+  /// `measurement` must be the one added last; the corrections may be of earlier ones, which are
+  /// found by sensor and valid stamp among the newest of each sensor.
   void Add(std::size_t estimator, const models::Measurement& measurement,
            const estimator::Report& report);
   void AddPrior(std::size_t estimator, const estimator::Prior& prior);

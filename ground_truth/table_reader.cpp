@@ -53,6 +53,10 @@ const std::byte* TableReader::Next() {
   return block_.data() + (next_++ - block_first_) * row_bytes_;
 }
 
+std::string TableReader::Place() const {
+  return fmt::format("{}: {}, row {}", path_.string(), name_, next_ - 1);
+}
+
 void TableReader::ReadBlock() {
   const Hdf5Quiet quiet;
   block_first_ = next_;

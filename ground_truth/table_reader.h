@@ -43,8 +43,6 @@ class RowDecoder {
     }
   }
 
-  const std::byte* at() const { return at_; }
-
  private:
   const std::byte* at_;
 };
@@ -57,10 +55,11 @@ class TableReader {
   TableReader(hid_t file, const std::filesystem::path& path, const std::string& name,
               const Columns& columns, std::size_t width = 0);
 
-  std::size_t rows() const { return rows_; }
-
   /// The next row; null after the last. It lives until the next call.
   const std::byte* Next();
+
+  /// Where the row that `Next` gave last is: file, table and number.
+  std::string Place() const;
 
  private:
   void ReadBlock();

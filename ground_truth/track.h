@@ -61,7 +61,6 @@ class Track {
   const std::vector<TrackSample>& samples() const { return samples_; }
   const std::vector<TrackCorrection>& corrections() const { return corrections_; }
   const std::vector<TrackRefusal>& refusals() const { return refusals_; }
-  bool has_covariance() const { return has_covariance_; }
   bool has_biases() const { return has_biases_; }
 
   /// Forgets what lies before `start_ns`.
@@ -72,7 +71,6 @@ class Track {
   std::vector<TrackCorrection> corrections_;
   std::vector<TrackRefusal> refusals_;
   std::size_t unpaired_ = 0;
-  bool has_covariance_ = false;
   bool has_biases_ = false;
 };
 

@@ -239,6 +239,43 @@ TEST(RunRecorder, ThePlanChoosesStreamsAndRates) {
   EXPECT_FALSE(reader.ReadCorrections(0).Next());
 }
 
+/// Stamps of a 200 Hz sensor within one second, each off its grid by `offset_ns`, thinned to 60 Hz.
+std::vector<models::TimeNs> ThinnedStamps(models::TimeNs offset_ns) {
+  const TemporaryFolder folder;
+  RecordingPlan plan = SmallPlan();
+  plan.truth_period_ns = plan.estimate_period_ns = 16'666'667;
+  {
+    RunRecorder recorder(folder / "run.h5", plan);
+    for (models::TimeNs t_ns = offset_ns; t_ns <= 1'000'000'000; t_ns += 5'000'000) {
+      recorder.Add(SomeTruth(t_ns));
+      recorder.Add(0, SomeEstimate(t_ns));
+      if (t_ns > 500'000'000) recorder.Add(1, SomeEstimate(t_ns));  // has a clock of its own
+    }
+    recorder.Close();
+  }
+  const RecordingReader reader(folder / "run.h5");
+  std::vector<models::TimeNs> stamps, truth;
+  for (auto rows = reader.ReadEstimates(0); const auto row = rows.Next();) {
+    stamps.push_back(row->t_ns);
+  }
+  for (auto rows = reader.ReadTruth(); const auto row = rows.Next();) truth.push_back(row->t_ns);
+  EXPECT_EQ(truth, stamps);
+  EXPECT_GT(reader.ReadEstimates(1).Next().value().t_ns, 500'000'000);
+  return stamps;
+}
+
+TEST(RunRecorder, ThinsToARateThatIsNoFractionOfTheRows) {
+  for (const models::TimeNs offset_ns : {0, 1, 1'234'567}) {
+    std::vector<models::TimeNs> expected;  // the first row at or after each 1/60 s
+    for (models::TimeNs due_ns = 0; due_ns <= 995'000'000; due_ns += 16'666'667) {
+      const models::TimeNs rows = (due_ns - offset_ns + 4'999'999) / 5'000'000;
+      expected.push_back(offset_ns + 5'000'000 * rows);
+    }
+    EXPECT_EQ(expected.size(), 60U);
+    EXPECT_EQ(ThinnedStamps(offset_ns), expected) << offset_ns;
+  }
+}
+
 TEST(RunRecorder, TheSameRowsGiveTheSameBytes) {
   const TemporaryFolder folder;
   RecordSmallRun(folder / "a.h5", 1500);
