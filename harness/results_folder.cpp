@@ -1,13 +1,13 @@
 #include "reckon/harness/results_folder.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <random>
 
 namespace reckon::harness {
 namespace {
@@ -30,15 +30,18 @@ void WriteBytes(const fs::path& path, std::string_view text) {
 }
 
 /// A name beside `final_folder` that no other run uses, on this thread or in another process.
+/// Who may read it is the umask's to say, as for every file in it (mkdtemp would shut all out).
 fs::path PartName(const fs::path& final_folder) {
-  std::string pattern = final_folder.string() + ".part.XXXXXX";
-  if (::mkdtemp(pattern.data()) == nullptr) {
-    throw OutputRefused(fmt::format("can't make a folder beside {}: {}", final_folder.string(),
-                                    std::strerror(errno)));
+  constexpr int kTries = 100;
+  std::random_device random;
+  std::error_code error;
+  for (int i = 0; i < kTries; ++i) {
+    const fs::path name = fmt::format("{}.part.{:06x}", final_folder.string(), random() & 0xffffff);
+    if (fs::create_directory(name, error)) return name;
+    if (error) break;
   }
-  fs::permissions(pattern, fs::perms::owner_all | fs::perms::group_read | fs::perms::group_exec |
-                               fs::perms::others_read | fs::perms::others_exec);
-  return pattern;
+  throw OutputRefused(fmt::format("can't make a folder beside {}: {}", final_folder.string(),
+                                  error ? error.message() : "all names are taken"));
 }
 
 }  // namespace
@@ -85,8 +88,11 @@ void ResultsFolder::Publish() {
   const fs::path old = part_.string() + ".old";
   const bool replaces = fs::exists(final_);
   if (replaces) fs::rename(final_, old, error);
+  const bool moved = replaces && !error;
   if (!error) fs::rename(part_, final_, error);
   if (error) {
+    std::error_code ignored;
+    if (moved) fs::rename(old, final_, ignored);
     throw OutputError(
         fmt::format("can't rename {} to {}: {}", part_.string(), final_.string(), error.message()));
   }

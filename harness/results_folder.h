@@ -40,7 +40,7 @@ class ResultsFolder {
   /// Writes a whole text file into the working folder. Throws OutputError.
   void Write(std::string_view name, std::string_view text) const;
 
-  /// Gives the folder its final name. Throws OutputError.
+  /// Gives the folder its final name. Throws OutputError; then what was there before still is.
   void Publish();
 
  private:
