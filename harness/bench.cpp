@@ -21,10 +21,11 @@ bool IsFinite(const estimator::Estimate& estimate) {
 std::unique_ptr<estimator::Estimator> MakeEstimator(const std::string& name,
                                                     const EstimatorConfig& config,
                                                     const estimator::Setup& setup,
-                                                    const std::string& robot) {
+                                                    const std::string& robot,
+                                                    const std::atomic<bool>* stop) {
   if (config.type == "process") {
     return std::make_unique<ProcessEstimator>(
-        ProcessOptions{name, config.command, config.working_folder, config.timeout_s, robot},
+        ProcessOptions{name, config.command, config.working_folder, config.timeout_s, robot, stop},
         setup);
   }
   const estimator::RegistryEntry* entry = estimator::FindEstimator(config.type);
@@ -46,14 +47,14 @@ std::vector<bool> Given(const EstimatorConfig& config, const models::Suite& suit
 }  // namespace
 
 Bench::Bench(const Scenario& scenario, const models::Suite& nominal,
-             ground_truth::RunRecorder* recorder)
+             ground_truth::RunRecorder* recorder, const std::atomic<bool>* stop)
     : recorder_(recorder) {
   for (const auto& [name, config] : scenario.estimators) {
     const estimator::Setup setup =
         MakeSetup(config, scenario.initial, nominal, scenario.world.gravity_m_s2);
     Tested tested;
     tested.name = name;
-    tested.estimator = MakeEstimator(name, config, setup, scenario.robot);
+    tested.estimator = MakeEstimator(name, config, setup, scenario.robot, stop);
     tested.given = Given(config, nominal);
     tested_.push_back(std::move(tested));
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <map>
 #include <memory>
 #include <optional>
@@ -28,10 +29,11 @@ class EstimatorFailure : public std::runtime_error {
 /// simulation and a replay of its measurements, so that both give the same estimates.
 class Bench {
  public:
-  /// Makes every estimator of `scenario`. `recorder` may be null. Throws std::invalid_argument if
-  /// an estimator can't be made from this suite.
-  Bench(const Scenario& scenario, const models::Suite& nominal,
-        ground_truth::RunRecorder* recorder);
+  /// Makes every estimator of `scenario`. `recorder` may be null, and so may `stop`: when it turns
+  /// true, waiting for an external estimator ends with ProcessInterrupted. Throws
+  /// std::invalid_argument if an estimator can't be made from this suite.
+  Bench(const Scenario& scenario, const models::Suite& nominal, ground_truth::RunRecorder* recorder,
+        const std::atomic<bool>* stop = nullptr);
 
   /// Starts every estimator from its prior.
   void Start(const estimator::Prior& prior);

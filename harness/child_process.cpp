@@ -22,6 +22,8 @@ namespace {
 constexpr std::size_t kErrorLines = 8;
 constexpr std::size_t kErrorLineLength = 400;
 constexpr std::chrono::milliseconds kTermGrace{500};
+/// One wait: a signal may reach another thread, so the stop flag is looked at this often.
+constexpr std::chrono::milliseconds kLongestWait{std::chrono::hours(1)}, kStopSlice{100};
 
 struct Pipe {
   Descriptor read, write;
@@ -177,8 +179,8 @@ ChildProcess::ChildProcess(const std::vector<std::string>& command,
   for (const Descriptor* end : {&input_, &output_, &errors_}) SetNonBlocking(*end);
 }
 
-ChildProcess::Answer ChildProcess::Exchange(std::string_view text,
-                                            std::chrono::nanoseconds timeout) {
+ChildProcess::Answer ChildProcess::Exchange(std::string_view text, std::chrono::nanoseconds timeout,
+                                            const std::atomic<bool>* stop) {
   const Clock::time_point deadline = Clock::now() + timeout;
   ReadOutput();
   if (!received_.empty()) return {Outcome::kUnasked, std::exchange(received_, {})};
@@ -190,7 +192,9 @@ ChildProcess::Answer ChildProcess::Exchange(std::string_view text,
     }
     if (!output_.open()) return {Outcome::kClosed, std::exchange(received_, {})};
     if (received_.size() > kLongestLine) return {Outcome::kTooLong, received_.substr(0, 200)};
-    if (!Wait(deadline, !text.empty())) return {Outcome::kTimeout, received_};
+    if (stop != nullptr && *stop) return {Outcome::kStopped, received_};
+    const auto longest = stop != nullptr ? kStopSlice : kLongestWait;
+    if (!Wait(deadline, longest, !text.empty())) return {Outcome::kTimeout, received_};
   }
 }
 
@@ -210,15 +214,17 @@ void ChildProcess::Send(std::string_view& unsent) {
   }
 }
 
-/// Waits until something can be read (and reads it) or written. False once the deadline has passed.
-bool ChildProcess::Wait(Clock::time_point deadline, bool writable) {
+/// Waits until something can be read (and reads it) or written, at most `longest`. False once the
+/// deadline has passed.
+bool ChildProcess::Wait(Clock::time_point deadline, std::chrono::milliseconds longest,
+                        bool writable) {
   const auto left = deadline - Clock::now();
   if (left <= Clock::duration::zero()) return false;
-  const auto left_ms = std::chrono::ceil<std::chrono::milliseconds>(left).count();
+  const auto wait = std::min(std::chrono::ceil<std::chrono::milliseconds>(left), longest);
   std::array<pollfd, 3> ends{{{output_.get(), POLLIN, 0},
                               {errors_.get(), POLLIN, 0},
                               {writable ? input_.get() : -1, POLLOUT, 0}}};
-  const int wait_ms = static_cast<int>(std::min<std::int64_t>(left_ms, 3'600'000));
+  const int wait_ms = static_cast<int>(wait.count());
   if (poll(ends.data(), ends.size(), wait_ms) <= 0) return true;  // the deadline is looked at again
   if (ends[0].revents != 0) ReadOutput();
   if (ends[1].revents != 0) ReadErrors();

@@ -2,6 +2,7 @@
 
 #include <sys/types.h>
 
+#include <atomic>
 #include <chrono>
 #include <deque>
 #include <filesystem>
@@ -57,6 +58,7 @@ class ChildProcess {
     kClosed,   ///< it ended or closed its output; `text` is the part of a line that came
     kUnasked,  ///< it spoke before it was asked; `text` is what it said
     kTooLong,  ///< a line beyond `kLongestLine`; `text` is its beginning
+    kStopped,  ///< `stop` turned true; `text` is the part of a line that came
   };
   struct Answer {
     Outcome outcome = Outcome::kLine;
@@ -65,8 +67,9 @@ class ChildProcess {
   static constexpr std::size_t kLongestLine = std::size_t{1} << 20;
 
   /// Sends `text` and waits for one line. Reads while it writes, so that full pipes can't lock
-  /// both.
-  Answer Exchange(std::string_view text, std::chrono::nanoseconds timeout);
+  /// both. `stop` (it may be null) ends the wait within a tenth of a second of turning true.
+  Answer Exchange(std::string_view text, std::chrono::nanoseconds timeout,
+                  const std::atomic<bool>* stop = nullptr);
 
   /// Closes the child's input and gives it `grace` to leave; then SIGTERM, then SIGKILL. No process
   /// of its group is left, no zombie either. Harmless if it has ended.
@@ -84,7 +87,7 @@ class ChildProcess {
   void Send(std::string_view& unsent);
   void ReadOutput();
   void ReadErrors();
-  bool Wait(Clock::time_point deadline, bool writable);
+  bool Wait(Clock::time_point deadline, std::chrono::milliseconds longest, bool writable);
   bool HasEnded() const noexcept;
   bool WaitForEnd(std::chrono::milliseconds grace) noexcept;
 

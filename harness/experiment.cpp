@@ -46,14 +46,15 @@ void Poison(ground_truth::Truth& truth) {
 }  // namespace
 
 Experiment::Experiment(const Scenario& scenario, const Robot& robot,
-                       ground_truth::RunRecorder* recorder)
+                       ground_truth::RunRecorder* recorder, const std::atomic<bool>* stop)
     : scenario_(scenario),
       recorder_(recorder),
+      stop_(stop),
       world_(robot.simulated, scenario.world, scenario.seed),
       sensors_(robot.sensors, scenario.faults, scenario.seed, scenario.world.physics_step_s,
                scenario.world.gravity_m_s2),
       truth_(HistorySize(scenario)),
-      bench_(scenario, robot.nominal, recorder) {
+      bench_(scenario, robot.nominal, recorder, stop) {
   bench_.set_truth(&truth_);
   timer_.Lap(costs_.setup_s);
 }
@@ -93,7 +94,7 @@ bool Experiment::Run(const Hooks& hooks) {
   for (std::int64_t k = 0; k <= steps; ++k) {
     Step(k == 0, hooks.poison_truth);
     if (k % kStepsPerCheck != 0) continue;
-    if (hooks.stop != nullptr && *hooks.stop) return false;
+    if (stop_ != nullptr && *stop_) return false;
     const double spent =
         costs_.physics_s + costs_.sensors_s + costs_.recording_s + costs_.estimators_s;
     if (hooks.progress && spent > 0.0) {

@@ -21,16 +21,17 @@ namespace reckon::harness {
 class Experiment {
  public:
   struct Hooks {
-    const std::atomic<bool>* stop = nullptr;
     std::function<void(double fraction, double real_time_factor)> progress;
     bool poison_truth = false;  ///< truth turns to NaN once the priors are drawn
   };
 
-  /// Throws std::invalid_argument if the robot, the world or an estimator can't be built.
-  Experiment(const Scenario& scenario, const Robot& robot, ground_truth::RunRecorder* recorder);
+  /// `stop` (it may be null) ends the run when it turns true. Throws std::invalid_argument if the
+  /// robot, the world or an estimator can't be built.
+  Experiment(const Scenario& scenario, const Robot& robot, ground_truth::RunRecorder* recorder,
+             const std::atomic<bool>* stop = nullptr);
 
   /// Runs to the end; false if it was stopped. Throws sim::WorldFailure, EstimatorFailure,
-  /// ProcessFailure, or what the recorder throws.
+  /// ProcessFailure, ProcessInterrupted (stopped as well), or what the recorder throws.
   bool Run(const Hooks& hooks);
 
   /// What happened to each estimator; empty after the first call.
@@ -44,6 +45,7 @@ class Experiment {
 
   const Scenario& scenario_;
   ground_truth::RunRecorder* recorder_;
+  const std::atomic<bool>* stop_;
   Costs costs_;
   LapTimer timer_;
   sim::World world_;

@@ -52,6 +52,7 @@ std::string Describe(const ChildProcess::Answer& answer, const ChildProcess& chi
       return fmt::format("a line longer than {} bytes came: '{}'", ChildProcess::kLongestLine,
                          text);
     case ChildProcess::Outcome::kLine:
+    case ChildProcess::Outcome::kStopped:
       break;
   }
   return text;
@@ -64,6 +65,12 @@ ProcessEstimator::ProcessEstimator(ProcessOptions options, const estimator::Setu
       sensors_(setup.suite.sensors.size()),
       unsent_hello_(HelloMessage(options_.robot, setup)),
       child_(StartChild(options_)) {}
+
+/// Somebody who stops a run doesn't want to wait for the patience that a program may otherwise
+/// need to write down what it learnt.
+ProcessEstimator::~ProcessEstimator() {
+  if (options_.stop != nullptr && *options_.stop) child_->End(kLeaveGrace);
+}
 
 void ProcessEstimator::Start(const estimator::Prior& prior) {
   constexpr std::string_view kQuestion = "'start'";
@@ -102,8 +109,13 @@ std::string ProcessEstimator::Ask(std::string_view text, std::string_view questi
   if (!failure_.empty()) throw ProcessFailure(failure_);
   const auto timeout = std::chrono::duration_cast<std::chrono::nanoseconds>(
       std::chrono::duration<double>(options_.timeout_s));
-  ChildProcess::Answer answer = child_->Exchange(text, timeout);
+  ChildProcess::Answer answer = child_->Exchange(text, timeout, options_.stop);
   if (answer.outcome == ChildProcess::Outcome::kLine) return std::move(answer.text);
+  if (answer.outcome == ChildProcess::Outcome::kStopped) {
+    failure_ = fmt::format("estimator '{}' was interrupted, answering {}", options_.name, question);
+    child_->End(kLeaveGrace);
+    throw ProcessInterrupted(failure_);
+  }
   if (answer.outcome == ChildProcess::Outcome::kClosed) child_->End(kLeaveGrace);
   Fail(question, "expected one line of JSON, but " + Describe(answer, *child_, options_.timeout_s));
 }

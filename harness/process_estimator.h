@@ -1,5 +1,6 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -23,25 +24,34 @@ class ProcessFailure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The stop flag turned true while an external estimator was waited for: it is gone, and its answer
+/// with it.
+class ProcessInterrupted : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 struct ProcessOptions {
   std::string name;                  ///< of the estimator in the scenario
   std::vector<std::string> command;  ///< the program and its arguments
   std::filesystem::path working_folder;
   double timeout_s = 10.0;  ///< the longest wait for one answer
   std::string robot;
+  const std::atomic<bool>* stop = nullptr;  ///< ends a wait when it turns true; may be null
 };
 
 /// Anyone's estimator: a program that reads measurements and writes beliefs, one line of JSON each
 /// (docs/process_estimator.md). It is told what a built-in estimator is told, and truth never.
 ///
 /// The program runs from construction to destruction. Unlike a built-in estimator, `Process`
-/// allocates, and both it and `Start` throw ProcessFailure; after that the program is gone and
-/// every call throws.
+/// allocates, and both it and `Start` throw ProcessFailure, or ProcessInterrupted; after that the
+/// program is gone and every call throws.
 class ProcessEstimator final : public estimator::Estimator {
  public:
   /// Starts the program. Throws ProcessStartError (an std::invalid_argument) if it can't, or if the
   /// timeout is not in (0, 86400] s.
   ProcessEstimator(ProcessOptions options, const estimator::Setup& setup);
+  ~ProcessEstimator() override;
 
   void Start(const estimator::Prior& prior) override;
   estimator::Report Process(const models::Measurement& measurement) override;

@@ -111,6 +111,43 @@ void WriteTrajectories(const Tracks& tracks, const fs::path& folder) {
   truth.Close();
 }
 
+/// Scores are of everything that happened; a recording that was told to leave some of it out would
+/// silently give others.
+void CheckRecordsWhole(const RecordConfig& record) {
+  const std::pair<bool, const char*> needed[] = {
+      {record.truth, "truth: false"},
+      {record.estimates, "estimates: false"},
+      {record.covariance, "covariance: false"},
+      {record.innovations, "innovations: false"},
+      {record.estimate_rate_hz == 0.0, "estimate_rate_hz other than 0"}};
+  for (const auto& [kept, key] : needed) {
+    if (kept) continue;
+    throw std::invalid_argument(
+        fmt::format("its recording does not hold all that scores are made of (`record: {{{}}}`); "
+                    "run the scenario again without that",
+                    key));
+  }
+}
+
+/// The same for truth: between its rows it is interpolated, and thinned truth would add that error
+/// to the scores. At 10 m/s^2 it is 3 um over 1.5 ms, the most that the default rate leaves.
+void CheckTruthIsFine(const Scenario& scenario, const Tracks& tracks) {
+  constexpr models::TimeNs kFineNs = 1'500'000;
+  const models::TimeNs period_ns = PeriodNs(scenario.record.truth_rate_hz);
+  if (period_ns <= std::max(kFineNs, PeriodNs(1.0 / scenario.world.physics_step_s))) return;
+  for (const auto& [name, track] : tracks) {
+    const auto between =
+        std::count_if(track.samples().begin(), track.samples().end(),
+                      [period_ns](const auto& sample) { return sample.t_ns % period_ns != 0; });
+    if (between == 0) continue;
+    throw std::invalid_argument(
+        fmt::format("its recording does not hold all that scores are made of: of {} estimates of "
+                    "'{}', {} lie between the rows of truth (`record: {{truth_rate_hz: {}}}`); run "
+                    "the scenario again without that",
+                    track.samples().size(), name, between, scenario.record.truth_rate_hz));
+  }
+}
+
 std::string ReadFile(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
@@ -138,7 +175,7 @@ std::optional<RunResult> Finished(const fs::path& folder, const Scenario& scenar
 
 /// Runs `experiment`; what fails in the world or in an estimator becomes the result's failure.
 void RunExperiment(Experiment& experiment, const RunOptions& options, RunResult& result) {
-  Experiment::Hooks hooks{options.stop, options.progress, options.poison_truth};
+  Experiment::Hooks hooks{options.progress, options.poison_truth};
   try {
     if (!experiment.Run(hooks)) result.outcome = Outcome::kInterrupted;
   } catch (const sim::WorldFailure& failure) {
@@ -147,6 +184,8 @@ void RunExperiment(Experiment& experiment, const RunOptions& options, RunResult&
     result.failure = failure.what();
   } catch (const ProcessFailure& failure) {
     result.failure = failure.what();
+  } catch (const ProcessInterrupted&) {
+    result.outcome = Outcome::kInterrupted;
   }
   if (!result.failure.empty()) result.outcome = Outcome::kFailed;
   result.costs = experiment.costs();
@@ -182,7 +221,7 @@ RunResult RunScenario(const Scenario& scenario, const std::string& name,
   ResultsFolder folder(result.folder, name, scenario.seed, options.force);
   folder.Write(kResolved, resolved);
   ground_truth::RunRecorder recorder(folder.File(kRecording), PlanOf(scenario, robot, resolved));
-  Experiment experiment(scenario, robot, &recorder);
+  Experiment experiment(scenario, robot, &recorder, options.stop);
   RunExperiment(experiment, options, result);
   if (result.outcome == Outcome::kInterrupted) return result;
 
@@ -210,9 +249,7 @@ RunResult ScoreResults(const fs::path& folder, const std::vector<std::string>& o
     throw std::invalid_argument("not a result folder: it has no run.json and resolved.yaml");
   }
   const Scenario scenario = ReadScenario(resolved.string(), overrides);
-  if (!scenario.record.truth || !scenario.record.estimates) {
-    throw std::invalid_argument("its recording lacks truth or estimates (`record:`)");
-  }
+  CheckRecordsWhole(scenario.record);
   const Robot robot = LoadRobot(scenario);
   RunResult result;
   result.expected_exit_code = scenario.expect.exit_code;
@@ -222,6 +259,7 @@ RunResult ScoreResults(const fs::path& folder, const std::vector<std::string>& o
   result.failure = run.value("failure", "");
   if (run.value("outcome", "") != "finished") result.outcome = Outcome::kFailed;
   Tracks tracks = ReadTracks(folder / kRecording);
+  CheckTruthIsFine(scenario, tracks);
   DropBeforeStart(scenario, tracks);
   ScoreTracks(scenario, robot, tracks, result);
   result.score_overrides = overrides;

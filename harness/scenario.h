@@ -52,7 +52,7 @@ struct InitialConfig {
 struct RecordConfig {
   bool truth = true, measurements = true, estimates = true, covariance = true, innovations = true;
   double truth_rate_hz = 1000.0;  ///< an integer fraction of the physics rate
-  double estimate_rate_hz = 0.0;  ///< 0: every estimate
+  double estimate_rate_hz = 0.0;  ///< 0: every estimate; else the first at or after each period
 };
 
 /// A bound on one metric of one estimator.

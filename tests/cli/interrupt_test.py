@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """Ctrl-C ends a run cleanly; a kill leaves nothing that looks finished."""
 
+import json
+import os
 import signal
 import subprocess
 import time
@@ -71,6 +73,40 @@ class Interrupt(ProgramTest):
         self.write("long.yaml", LONG)
         self.end(self.start("long.yaml"), signal.SIGINT)
         self.assertEqual(files_in(self.folder / "out"), before)
+
+    def assertHangingEstimatorStops(self, script):
+        """An external estimator that never answers must not keep Ctrl-C waiting for its timeout."""
+        started = self.folder / "started"
+        command = ["sh", "-c", f"{script}; echo $$ > {started}.new; mv {started}.new {started}; "
+                   "exec sleep 1000"]
+        self.write("hangs.yaml", SHORT +
+                   f"  mine: {{type: process, command: {json.dumps(command)}, timeout_s: 60}}\n")
+        process = subprocess.Popen([PROGRAM, "run", "hangs.yaml"], cwd=self.folder, text=True,
+                                   env=self.environment({}), stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE)
+        self.addCleanup(process.kill)
+        until = time.monotonic() + 60
+        while not started.exists():
+            self.assertIsNone(process.poll(), "it ended by itself")
+            self.assertLess(time.monotonic(), until, "it starts no estimator")
+            time.sleep(0.05)
+        time.sleep(0.2)  # so that it is waited for
+        before = time.monotonic()
+        _, stderr = self.end(process, signal.SIGINT)
+        # 0.1 s until the flag is seen and 0.7 s of grace for the program; the rest is a busy machine.
+        self.assertLess(time.monotonic() - before, 2.5)
+        self.assertEqual(process.returncode, 130, stderr)
+        self.assertIn("interrupted", stderr)
+        self.assertEqual(list(self.folder.glob("out/**/*.part*")), [])
+        self.assertEqual(files_in(self.folder / "out"), {})
+        with self.assertRaises(ProcessLookupError):
+            os.kill(int(started.read_text()), 0)
+
+    def test_while_an_external_estimator_hangs(self):
+        self.assertHangingEstimatorStops("true")
+
+    def test_while_an_external_estimator_hangs_and_will_not_leave(self):
+        self.assertHangingEstimatorStops("trap '' TERM INT")
 
     def test_killed_run_leaves_nothing_under_the_final_name(self):
         self.write("long.yaml", LONG)

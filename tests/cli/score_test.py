@@ -5,7 +5,7 @@ import json
 import math
 import unittest
 
-from program import SHORT, ProgramTest
+from program import SHORT, ProgramTest, files_in
 
 # Two estimators whose beliefs have other stamps, and a start that is not scored.
 LATE = SHORT.replace("  mekf: {type: mekf}\n", "  wheels: {type: odometry}\n") + \
@@ -41,6 +41,26 @@ class Scores(ProgramTest):
         first = self.metrics()
         self.assertGreater(first["riekf"]["estimate_count"], 500)
         self.assertEqual(first["riekf"]["unpaired_estimate_count"], 0)
+        self.assertEqual(self.call("score", self.result()).returncode, 0)
+        self.assertEqual(self.metrics(), first)
+
+    def test_of_a_recording_that_left_something_out_are_refused(self):
+        self.write("short.yaml")
+        for key in ("truth=false", "estimates=false", "covariance=false", "innovations=false",
+                    "estimate_rate_hz=60", "truth_rate_hz=50"):
+            self.run_ok("short.yaml", "--set", f"record.{key}")
+            before = files_in(self.result())
+            done = self.call("score", self.result())
+            self.assertRefused(done, "its recording")
+            self.assertIn(key.split("=")[0], done.stderr)
+            self.assertEqual(files_in(self.result()), before, key)
+
+    def test_need_neither_measurements_nor_truth_between_the_estimates(self):
+        self.write("short.yaml")
+        # The IMU's rate: truth at every stamp of the filters.
+        self.run_ok("short.yaml", "--set", "record.measurements=false",
+                    "--set", "record.truth_rate_hz=200")
+        first = self.metrics()
         self.assertEqual(self.call("score", self.result()).returncode, 0)
         self.assertEqual(self.metrics(), first)
 

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cmath>
@@ -13,6 +14,7 @@
 #include <functional>
 #include <limits>
 #include <sstream>
+#include <thread>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -342,6 +344,23 @@ TEST(ProcessEstimator, RunsInItsFolder) {
                          }());
   const std::string folder = fs::canonical(testing::TempDir()).string();
   EXPECT_TRUE(Says(Failure([&] { child.Start({}); }), "found '" + folder + "'"));
+}
+
+TEST(ProcessEstimator, AStopFlagEndsTheWait) {
+  std::atomic<bool> stop = false;
+  ProcessOptions options = Options({"sleep", "1000"}, 60.0);
+  options.stop = &stop;
+  ProcessEstimator child(options, TwoSensors());
+  const pid_t pid = child.child().pid();
+  std::thread stopper([&stop] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    stop = true;
+  });
+  // 0.1 s until it is raised, 0.1 s until it is seen, 0.2 s of grace: far from 60 s.
+  EXPECT_LT(SecondsOf([&child] { EXPECT_THROW(child.Start({}), ProcessInterrupted); }), 2.0);
+  stopper.join();
+  EXPECT_EQ(kill(pid, 0), -1);
+  EXPECT_EQ(errno, ESRCH);
 }
 
 std::string StartError(ProcessOptions options) {
