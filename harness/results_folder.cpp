@@ -36,7 +36,7 @@ fs::path PartName(const fs::path& final_folder) {
   std::random_device random;
   std::error_code error;
   for (int i = 0; i < kTries; ++i) {
-    const fs::path name = fmt::format("{}.part.{:06x}", final_folder.string(), random() & 0xffffff);
+    fs::path name = fmt::format("{}.part.{:06x}", final_folder.string(), random() & 0xffffff);
     if (fs::create_directory(name, error)) return name;
     if (error) break;
   }
