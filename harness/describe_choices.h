@@ -14,6 +14,11 @@
 
 namespace reckon::harness {
 
+/// The range of a key that the simulator checks as well.
+constexpr Limits Within(const sim::Range& range) {
+  return {.min = range.min, .max = range.max, .above_min = range.above_min};
+}
+
 // The words of the scenario's enumerations, one table each.
 template <>
 std::span<const Choice<sim::TerrainKind>> Choices();
@@ -23,6 +28,8 @@ template <>
 std::span<const Choice<sim::ImuMode>> Choices();
 template <>
 std::span<const Choice<sim::FaultKind>> Choices();
+template <>
+std::span<const Choice<sim::FaultChannels>> Choices();
 template <>
 std::span<const Choice<models::SensorKind>> Choices();
 template <>

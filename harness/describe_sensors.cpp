@@ -1,5 +1,6 @@
 #include "reckon/harness/describe_sensors.h"
 
+#include "reckon/sim/faults.h"
 #include "reckon/sim/imu_grades.h"
 
 namespace reckon::harness {
@@ -23,6 +24,23 @@ const std::vector<Choice<std::string>>& ImuGrades() {
     return grades;
   }();
   return kGrades;
+}
+
+template <>
+std::span<const Choice<sim::FaultChannels>> Choices() {
+  static const std::vector<Choice<sim::FaultChannels>> kChoices = [] {
+    std::vector<Choice<sim::FaultChannels>> choices;
+    const auto add = [&](sim::FaultChannels channels, const char* doc) {
+      choices.push_back({channels, std::string(sim::FaultChannelsName(channels)), doc});
+    };
+    add(sim::FaultChannels::kAll, "all that the sensor measures");
+    add(sim::FaultChannels::kGyro, "the angular velocity of an IMU");
+    add(sim::FaultChannels::kAccel, "the specific force of an IMU");
+    add(sim::FaultChannels::kAngle, "the angles of encoders");
+    add(sim::FaultChannels::kRate, "the rates of encoders");
+    return choices;
+  }();
+  return kChoices;
 }
 
 sim::SensorErrors DefaultErrors(models::SensorKind kind) {

@@ -105,40 +105,52 @@ void Describe(Archive& a, SensorConfig& s) {
   std::visit([&a](auto& errors) { DescribeErrors(a, errors); }, s.errors);
 }
 
+/// The key of the faults that change what a sensor measures.
+template <class Archive>
+void DescribeChannels(Archive& a, sim::FaultConfig& f) {
+  a.Field("channels", f.channels,
+          "What it strikes: `gyro` (rad/s) or `accel` (m/s²) of an IMU, `angle` (rad) or `rate` "
+          "(rad/s) of encoders, or `all` the sensor measures, each in its own unit");
+}
+
 template <class Archive>
 void Describe(Archive& a, sim::FaultConfig& f) {
+  using Fault = sim::FaultConfig;
   using Kind = sim::FaultKind;
   a.Field("sensor", f.sensor, "The sensor that it strikes", {}, Need::kHere);
   a.Kind("kind", f.kind, Choices<Kind>(), "What happens", Need::kHere);
-  a.Field("at_s", f.at_s, "When it begins", Between(0, 1e6), Need::kHere);
-  a.Field("for_s", f.for_s, "How long it lasts", AboveUpTo(0, 1e6));
+  a.Field("at_s", f.at_s, "When it begins", Within(Fault::kStart), Need::kHere);
+  a.Field("for_s", f.for_s, "How long it lasts", Within(Fault::kDuration));
   switch (f.kind) {
     case Kind::kBiasStep:
-      a.Field("offset", f.magnitude, "Added to every channel, in its own unit", Between(-1e6, 1e6),
-              Need::kHere);
-      break;
+      a.Field("offset", f.magnitude, "Added to every channel, in its own unit",
+              Within(Fault::kOffset), Need::kHere);
+      return DescribeChannels(a, f);
     case Kind::kScaleStep:
-      a.Field("factor", f.magnitude, "Multiplies every channel", Between(-1e3, 1e3), Need::kHere);
-      break;
+      a.Field("factor", f.magnitude, "Multiplies every channel", Within(Fault::kFactor),
+              Need::kHere);
+      return DescribeChannels(a, f);
     case Kind::kSaturation:
       a.Field("limit", f.magnitude, "Every channel is clipped at plus and minus this, in its unit",
-              AboveUpTo(0, 1e6), Need::kHere);
-      break;
+              Within(Fault::kLimit), Need::kHere);
+      return DescribeChannels(a, f);
     case Kind::kExtraDelay:
-      a.Field("delay_s", f.magnitude, "Added to the arrival", Between(0, 60), Need::kHere);
-      break;
+      return a.Field("delay_s", f.magnitude, "Added to the arrival", Within(Fault::kDelay),
+                     Need::kHere);
     case Kind::kTimeJitter:
-      a.Field("std_s", f.magnitude, "Sigma of the error of the time of validity", Between(0, 10),
-              Need::kHere);
-      break;
+      return a.Field("std_s", f.magnitude,
+                     "Sigma of the error of the time of validity; no message arrives before the "
+                     "time that it claims",
+                     Within(Fault::kJitter), Need::kHere);
     case Kind::kOutlierBurst:
-      a.Field("std", f.magnitude, "Sigma of an outlier, in each channel's unit", Between(0, 1e6),
-              Need::kHere);
-      break;
+      a.Field("std", f.magnitude, "Sigma of an outlier, in each channel's unit",
+              Within(Fault::kOutlier), Need::kHere);
+      return DescribeChannels(a, f);
+    case Kind::kNanBurst:
+      return DescribeChannels(a, f);
     case Kind::kDropout:
     case Kind::kStuck:
-    case Kind::kNanBurst:
-      break;
+      return;
   }
 }
 

@@ -8,46 +8,49 @@ namespace reckon::harness {
 template <class Archive>
 void Describe(Archive& a, sim::TerrainConfig& t) {
   using Kind = sim::TerrainKind;
+  using Terrain = sim::TerrainConfig;
   a.Kind("kind", t.kind, Choices<Kind>(), "The form of the ground");
-  a.Field("friction", t.friction, "Friction coefficient of the tyres", Between(0, 3));
+  a.Field("friction", t.friction, "Friction coefficient of the tyres", Within(Terrain::kFriction));
   a.Field("rolling_resistance", t.rolling_resistance,
-          "Rolling resistance coefficient (0.015 hard ground, 0.05 grass)", Between(0, 1));
+          "Rolling resistance coefficient (0.015 hard ground, 0.05 grass)",
+          Within(Terrain::kRollingResistance));
   a.Field("half_size_m", t.half_size_m,
           "The map is the square |x|, |y| <= half_size_m; leaving it ends the run",
-          Between(2, 1000));
+          Within(t.kind == Kind::kRough ? Terrain::kRoughHalfSize : Terrain::kHalfSize));
   if (t.kind == Kind::kSlope) {
-    a.Field("angle_deg", t.angle_deg, "Inclination", Between(-45, 45));
+    a.Field("angle_deg", t.angle_deg, "Inclination", Within(Terrain::kAngle));
     a.Field("uphill_deg", t.uphill_deg, "Direction of ascent, from +x towards +y",
-            Between(-360, 360));
+            Within(Terrain::kUphill));
   }
   if (t.kind == Kind::kRough) {
-    a.Field("rms_m", t.rms_m, "Standard deviation of the height", Between(0, 1));
-    a.Field("shortest_wave_m", t.shortest_wave_m, "Shortest wavelength", Between(0.2, 1000));
-    a.Field("longest_wave_m", t.longest_wave_m, "Longest wavelength", Between(0.2, 1000));
+    a.Field("rms_m", t.rms_m, "Standard deviation of the height", Within(Terrain::kRms));
+    a.Field("shortest_wave_m", t.shortest_wave_m, "Shortest wavelength", Within(Terrain::kWave));
+    a.Field("longest_wave_m", t.longest_wave_m, "Longest wavelength", Within(Terrain::kWave));
   }
   if (t.kind == Kind::kKerbs) {
-    a.Field("kerb_height_m", t.kerb_height_m, "Height of a kerb", AboveUpTo(0, 0.5));
-    a.Field("kerb_width_m", t.kerb_width_m, "Width of a kerb along x", AboveUpTo(0, 100));
+    a.Field("kerb_height_m", t.kerb_height_m, "Height of a kerb", Within(Terrain::kKerbHeight));
+    a.Field("kerb_width_m", t.kerb_width_m, "Width of a kerb along x", Within(Terrain::kKerbWidth));
     a.Field("kerb_spacing_m", t.kerb_spacing_m, "Distance from kerb to kerb along x",
-            AboveUpTo(0, 1000));
+            Within(Terrain::kKerbSpacing));
   }
 }
 
 template <class Archive>
 void Describe(Archive& a, sim::PatchConfig& p) {
-  a.Field("box_m", p.box_m, "Centre x, centre y, size along x, size along y", Between(-1e4, 1e4),
-          Need::kHere);
-  a.Field("friction", p.friction, "Friction coefficient inside", Between(0, 3));
+  a.Field("box_m", p.box_m, "Centre x, centre y, size along x, size along y",
+          Within(sim::PatchConfig::kBox), Need::kHere);
+  a.Field("friction", p.friction, "Friction coefficient inside",
+          Within(sim::TerrainConfig::kFriction));
 }
 
 /// The `world:` section; motion and actual robot are sections of their own.
 template <class Archive>
 void Describe(Archive& a, sim::WorldConfig& w) {
   a.Field("physics_step_s", w.physics_step_s, "Step of the physics, a whole number of nanoseconds",
-          Between(1e-5, 0.01));
-  a.Field("gravity_m_s2", w.gravity_m_s2, "Gravity, downwards", Between(0, 30));
+          Within(sim::WorldConfig::kPhysicsStep));
+  a.Field("gravity_m_s2", w.gravity_m_s2, "Gravity, downwards", Within(sim::WorldConfig::kGravity));
   a.Field("settle_s", w.settle_s, "Time in which the robot comes to rest before t = 0",
-          Between(0, 60));
+          Within(sim::WorldConfig::kSettle));
   a.Field("terrain", w.terrain, "The ground");
   a.Field("patches", w.patches, "Rectangles with another friction; later ones win");
 }
@@ -105,7 +108,8 @@ void Describe(Archive& a, sim::SkidSteerConfig& d) {
           Between(0, 100));
   a.Field("wheel_damping_n_m_s", d.wheel_damping_n_m_s, "Viscous friction of a wheel's axle",
           Between(0, 100));
-  a.Field("torque_limit_n_m", d.torque_limit_n_m, "Limit of one side's motor", AboveUpTo(0, 1e4));
+  a.Field("torque_limit_n_m", d.torque_limit_n_m, "Most that the motors give at each wheel",
+          AboveUpTo(0, 1e4));
   a.Field("speed_kp", d.speed_kp, "Speed loop, N m per rad/s", Between(0, 1e4));
   a.Field("speed_ki", d.speed_ki, "Speed loop, N m per rad", Between(0, 1e5));
   a.Field("belt_stiffness_n_m_rad", d.belt_stiffness_n_m_rad,

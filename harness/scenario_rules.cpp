@@ -4,9 +4,11 @@
 #include <cmath>
 #include <set>
 
+#include "reckon/harness/describe_choices.h"
 #include "reckon/harness/nearest.h"
 #include "reckon/harness/scenario_metrics.h"
 #include "reckon/harness/yaml_values.h"
+#include "reckon/sim/imu.h"
 
 namespace reckon::harness {
 namespace {
@@ -20,13 +22,24 @@ Names KeysOf(const std::map<std::string, T>& map) {
   return names;
 }
 
+bool Holds(const Names& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+/// "a, b, c"
+std::string Joined(const Names& names) {
+  std::string joined;
+  for (const std::string& name : names) joined += (joined.empty() ? "" : ", ") + name;
+  return joined;
+}
+
 /// The rules, with what all of them need.
 class Rules {
  public:
   Rules(const Scenario& scenario, const YamlNode& root, Problems& problems)
       : s_(scenario), root_(root), problems_(problems), sensors_(KeysOf(scenario.sensors)) {}
 
-  void Run(const models::UrdfRobot& urdf) const {
+  void Run(const models::UrdfRobot& urdf, const std::string& base_link) const {
     // Nothing divides a step that stamps can't hold.
     const bool step_is_good = IsWhole(s_.world.physics_step_s * 1e9);
     Require(step_is_good, "/world/physics_step_s", "a whole number of nanoseconds");
@@ -34,7 +47,7 @@ class Rules {
     CheckWorld();
     CheckMotion();
     CheckSensors(urdf);
-    CheckDrive(urdf);
+    CheckDrive(urdf, base_link);
     CheckFaults();
     for (const auto& [name, estimator] : s_.estimators) CheckEstimator(name, estimator);
     CheckRate("/record/truth_rate_hz", s_.record.truth_rate_hz);
@@ -64,7 +77,7 @@ class Rules {
 
   void RequireOneOf(const std::string& name, const Names& names, const std::string& path,
                     const std::string& what) const {
-    if (std::find(names.begin(), names.end(), name) != names.end()) return;
+    if (Holds(names, name)) return;
     Complain(path, "there is no " + what + " '" + Shown(name) + "'" + DidYouMean(name, names));
   }
 
@@ -73,23 +86,29 @@ class Rules {
     return std::abs(number - std::round(number)) <= kRoundOff * std::abs(number);
   }
 
-  /// A rate must be an integer fraction of the physics rate.
-  void CheckRate(const std::string& path, double rate_hz) const {
+  models::TimeNs StepNs() const { return std::llround(s_.world.physics_step_s * 1e9); }
+
+  /// A rate must be an integer fraction of the physics rate. Whether it is.
+  bool CheckRate(const std::string& path, double rate_hz) const {
     const double steps = 1.0 / (rate_hz * s_.world.physics_step_s);
     const double whole = std::max(1.0, std::round(steps));
-    if (steps > 0.5 && IsWhole(steps)) return;
+    if (steps > 0.5 && IsWhole(steps)) return true;
     const double nearest = 1.0 / (whole * s_.world.physics_step_s);
     Complain(path, "expected an integer fraction of the physics rate of " +
                        NumberText(1.0 / s_.world.physics_step_s) + " Hz, found " +
                        NumberText(rate_hz) + "; the nearest is " + NumberText(nearest));
+    return false;
   }
 
   void CheckWorld() const {
     const sim::TerrainConfig& t = s_.world.terrain;
-    Require(t.kind != sim::TerrainKind::kRough || t.shortest_wave_m < t.longest_wave_m,
-            "/world/terrain/longest_wave_m", "more than shortest_wave_m");
-    Require(t.kind != sim::TerrainKind::kKerbs || t.kerb_width_m < t.kerb_spacing_m,
-            "/world/terrain/kerb_spacing_m", "more than kerb_width_m");
+    Require(t.kind != sim::TerrainKind::kRough || t.shortest_wave_m <= t.longest_wave_m,
+            "/world/terrain/longest_wave_m",
+            "at least shortest_wave_m, " + NumberText(t.shortest_wave_m));
+    Require(t.kind != sim::TerrainKind::kKerbs || t.kerb_spacing_m >= t.LeastKerbSpacing(),
+            "/world/terrain/kerb_spacing_m",
+            "at least " + NumberText(t.LeastKerbSpacing()) +
+                ", the kerb's width and room for the robot");
     for (std::size_t i = 0; i < s_.world.patches.size(); ++i) {
       const auto& box = s_.world.patches[i].box_m;
       Require(box[2] > 0 && box[3] > 0, "/world/patches/" + std::to_string(i) + "/box_m",
@@ -100,7 +119,12 @@ class Rules {
   void CheckMotion() const {
     const sim::MotionConfig& m = s_.world.motion;
     if (m.path == sim::PathKind::kWaypoints) {
-      Require(!m.waypoints_m.empty(), "/motion/waypoints_m", "at least one point [x, y]");
+      const auto elsewhere = [](const auto& point) {
+        return std::hypot(point[0], point[1]) > 1e-6;
+      };
+      const auto& points = m.waypoints_m;
+      Require(std::any_of(points.begin(), points.end(), elsewhere), "/motion/waypoints_m",
+              "at least one point [x, y] other than the origin");
     }
     if (m.path != sim::PathKind::kVelocityProfile) return;
     Require(!m.profile.empty(), "/motion/profile", "at least one row [t_s, v_m_s, yaw_rate_rad_s]");
@@ -122,13 +146,29 @@ class Rules {
       const std::string path = "/sensors/" + name;
       RequireOneOf(sensor.frame, links, path + "/frame", "link in the URDF called");
       const auto rate = [](const auto& errors) { return errors.timing.rate_hz; };
-      CheckRate(path + "/rate_hz", std::visit(rate, sensor.errors));
-      if (const auto* encoders = std::get_if<sim::EncoderConfig>(&sensor.errors)) {
-        const double steps = encoders->rate_window_s / s_.world.physics_step_s;
-        Require(steps > 0.5 && IsWhole(steps), path + "/rate_window_s",
-                "a whole number of physics steps");
+      const double rate_hz = std::visit(rate, sensor.errors);
+      const bool divides = CheckRate(path + "/rate_hz", rate_hz);
+      if (const auto* imu = std::get_if<sim::ImuConfig>(&sensor.errors)) {
+        const double most = sim::LargestBandwidthHz(StepNs());
+        Require(imu->bandwidth_hz <= most, path + "/bandwidth_hz",
+                "at most half the physics rate, " + NumberText(most) + " Hz");
+      }
+      const auto* encoders = std::get_if<sim::EncoderConfig>(&sensor.errors);
+      if (encoders != nullptr && divides) {
+        CheckWindow(path + "/rate_window_s", encoders->rate_window_s, 1.0 / rate_hz);
       }
     }
+    CheckWheels();
+  }
+
+  void CheckWindow(const std::string& path, double window_s, double period_s) const {
+    const double step_s = s_.world.physics_step_s, steps = window_s / step_s;
+    Require(steps > 0.5 && IsWhole(steps), path, "a whole number of physics steps");
+    Require(std::round(steps) <= std::round(period_s / step_s), path,
+            "at most the sample period of " + NumberText(period_s) + " s");
+  }
+
+  void CheckWheels() const {
     const std::string& wheels = s_.nominal.wheels.encoders;
     const auto it = s_.sensors.find(wheels);
     if (it == s_.sensors.end()) return;  // removed: then there are no wheels to believe in
@@ -140,17 +180,23 @@ class Rules {
             "a number above 0");
   }
 
-  void CheckDrive(const models::UrdfRobot& urdf) const {
-    Names joints;
-    for (const auto& joint : urdf.joints()) joints.push_back(joint.name);
+  void CheckDrive(const models::UrdfRobot& urdf, const std::string& base_link) const {
+    Names joints, wheels;
+    for (const auto& joint : urdf.joints()) {
+      joints.push_back(joint.name);
+      if (sim::IsWheelJoint(urdf, joint, base_link)) wheels.push_back(joint.name);
+    }
     std::set<std::string> seen;
     for (const auto& [key, side] : {std::pair{"left_joints", &s_.drive.left_joints},
                                     std::pair{"right_joints", &s_.drive.right_joints}}) {
       const std::string path = std::string("/drive/") + key;
       for (std::size_t i = 0; i < side->size(); ++i) {
         const std::string place = path + "/" + std::to_string(i);
-        RequireOneOf((*side)[i], joints, place, "joint in the URDF called");
-        Require(seen.insert((*side)[i]).second, place, "each joint once");
+        const std::string& joint = (*side)[i];
+        RequireOneOf(joint, joints, place, "joint in the URDF called");
+        Require(!Holds(joints, joint) || Holds(wheels, joint), place,
+                "a continuous joint of " + base_link + " (" + Joined(wheels) + ")");
+        Require(seen.insert(joint).second, place, "each joint once");
       }
       Require(!side->empty(), path, "at least one joint");
     }
@@ -164,7 +210,20 @@ class Rules {
       const std::string path = "/faults/" + std::to_string(i);
       RequireOneOf(s_.faults[i].sensor, sensors_, path + "/sensor", "sensor");
       Require(s_.faults[i].at_s < s_.duration_s, path + "/at_s", "a time before the run's end");
+      CheckChannels(path + "/channels", s_.faults[i]);
     }
+  }
+
+  void CheckChannels(const std::string& path, const sim::FaultConfig& fault) const {
+    const auto sensor = s_.sensors.find(fault.sensor);
+    if (sensor == s_.sensors.end() || sim::HasChannels(sensor->second.errors, fault.channels)) {
+      return;
+    }
+    Names names;
+    for (const auto& choice : Choices<sim::FaultChannels>()) {
+      if (sim::HasChannels(sensor->second.errors, choice.value)) names.push_back(choice.name);
+    }
+    Require(false, path, "channels of the sensor '" + fault.sensor + "' (" + Joined(names) + ")");
   }
 
   void CheckEstimator(const std::string& name, const EstimatorConfig& estimator) const {
@@ -243,9 +302,9 @@ class Rules {
 
 }  // namespace
 
-void CheckScenario(const Scenario& scenario, const models::UrdfRobot& urdf, const YamlNode& root,
-                   Problems& problems) {
-  Rules(scenario, root, problems).Run(urdf);
+void CheckScenario(const Scenario& scenario, const models::UrdfRobot& urdf,
+                   const std::string& base_link, const YamlNode& root, Problems& problems) {
+  Rules(scenario, root, problems).Run(urdf, base_link);
 }
 
 }  // namespace reckon::harness

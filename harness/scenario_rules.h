@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "reckon/harness/scenario.h"
 #include "reckon/harness/yaml_node.h"
 #include "reckon/models/urdf_robot.h"
@@ -7,9 +9,10 @@
 namespace reckon::harness {
 
 /// Checks what no single key can say: names that must exist, rates that must divide the physics
-/// rate, times in order. `root` is what `scenario` was read from: it tells where each value was
-/// written.
-void CheckScenario(const Scenario& scenario, const models::UrdfRobot& urdf, const YamlNode& root,
-                   Problems& problems);
+/// rate, times in order. What the simulator would refuse of a scenario is refused here, at its
+/// line. `base_link` is the link of `urdf` that carries the wheels. `root` is what `scenario` was
+/// read from: it tells where each value was written.
+void CheckScenario(const Scenario& scenario, const models::UrdfRobot& urdf,
+                   const std::string& base_link, const YamlNode& root, Problems& problems);
 
 }  // namespace reckon::harness

@@ -133,7 +133,8 @@ Scenario Resolve(YamlNode root, const fs::path& folder, int layer,
   Complete(root, folder, scenario);
   const fs::path urdf_path = robot.folder / robot.values.urdf;
   try {
-    CheckScenario(scenario, models::UrdfRobot::FromFile(urdf_path.string()), root, problems);
+    CheckScenario(scenario, models::UrdfRobot::FromFile(urdf_path.string()), robot.values.base_link,
+                  root, problems);
   } catch (const std::invalid_argument& error) {
     Fail(WhereOf(robot.root, "urdf"), error.what());
   }

@@ -4,8 +4,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <sstream>
-#include <stdexcept>
 #include <string>
 #include <variant>
 
@@ -14,65 +12,78 @@ namespace {
 
 constexpr double kOutlierProbability = 0.3;
 
-/// Calls `visit(channel, value)` for every number that the sensor measures.
+/// Calls `visit(channel, value)` for every number that the sensor measures and that `channels`
+/// names. A number keeps its channel whatever is chosen, and with it its draws.
 template <typename Visit>
-void ForEachChannel(models::Sample& sample, const Visit& visit) {
+void ForEachChannel(models::Sample& sample, FaultChannels channels, const Visit& visit) {
   std::uint32_t channel = 0;
-  const auto visit_all = [&](auto& vector) {
-    for (double& value : vector) visit(channel++, value);
+  const auto visit_all = [&](auto& vector, FaultChannels which) {
+    const bool chosen = channels == FaultChannels::kAll || channels == which;
+    for (double& value : vector) {
+      if (chosen) visit(channel, value);
+      ++channel;
+    }
   };
   if (auto* imu = std::get_if<models::ImuSample>(&sample)) {
-    visit_all(imu->gyro_rad_s);
-    visit_all(imu->accel_m_s2);
+    visit_all(imu->gyro_rad_s, FaultChannels::kGyro);
+    visit_all(imu->accel_m_s2, FaultChannels::kAccel);
   } else if (auto* encoders = std::get_if<models::EncoderSample>(&sample)) {
-    visit_all(encoders->angle_rad);
-    visit_all(encoders->rate_rad_s);
+    visit_all(encoders->angle_rad, FaultChannels::kAngle);
+    visit_all(encoders->rate_rad_s, FaultChannels::kRate);
   } else if (auto* velocity = std::get_if<models::BodyVelocitySample>(&sample)) {
-    visit_all(velocity->v_WS_S);
+    visit_all(velocity->v_WS_S, FaultChannels::kAll);
   }
 }
 
-void Saturate(models::Sample& sample, double limit) {
+void Saturate(models::Sample& sample, FaultChannels channels, double limit) {
   if (auto* imu = std::get_if<models::ImuSample>(&sample)) {
-    imu->gyro_saturated |= (imu->gyro_rad_s.array().abs() > limit).any();
-    imu->accel_saturated |= (imu->accel_m_s2.array().abs() > limit).any();
+    const auto clips = [limit](const Eigen::Vector3d& v) {
+      return (v.array().abs() > limit).any();
+    };
+    imu->gyro_saturated |= channels != FaultChannels::kAccel && clips(imu->gyro_rad_s);
+    imu->accel_saturated |= channels != FaultChannels::kGyro && clips(imu->accel_m_s2);
   }
-  ForEachChannel(sample,
+  ForEachChannel(sample, channels,
                  [&](std::uint32_t, double& value) { value = std::clamp(value, -limit, limit); });
 }
 
-void AddOutlier(models::Sample& sample, double sigma, const RandomStream& draws,
-                std::uint64_t index) {
+void AddOutlier(models::Sample& sample, FaultChannels channels, double sigma,
+                const RandomStream& draws, std::uint64_t index) {
   if (draws.Uniform(0, index) >= kOutlierProbability) return;
-  ForEachChannel(sample, [&](std::uint32_t channel, double& value) {
+  ForEachChannel(sample, channels, [&](std::uint32_t channel, double& value) {
     value += sigma * draws.Normal(channel, index);
   });
 }
 
-void Require(bool holds, const FaultConfig& fault, const char* field, double found,
-             const char* allowed) {
-  if (holds && std::isfinite(found)) return;
-  std::ostringstream text;
-  text << "fault " << FaultKindName(fault.kind) << " of sensor '" << fault.sensor << "': " << field
-       << " is " << found << ", expected " << allowed;
-  throw std::invalid_argument(text.str());
+Range MagnitudeRange(FaultKind kind) {
+  switch (kind) {
+    case FaultKind::kBiasStep:
+      return FaultConfig::kOffset;
+    case FaultKind::kScaleStep:
+      return FaultConfig::kFactor;
+    case FaultKind::kSaturation:
+      return FaultConfig::kLimit;
+    case FaultKind::kExtraDelay:
+      return FaultConfig::kDelay;
+    case FaultKind::kTimeJitter:
+      return FaultConfig::kJitter;
+    case FaultKind::kOutlierBurst:
+      return FaultConfig::kOutlier;
+    case FaultKind::kDropout:
+    case FaultKind::kStuck:
+    case FaultKind::kNanBurst:
+      break;  // no magnitude
+  }
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  return {-kInfinity, kInfinity};
 }
 
 void Check(const FaultConfig& fault) {
-  Require(fault.at_s >= 0.0 && fault.at_s < 1e9, fault, "at_s", fault.at_s, "at least 0");
-  Require(fault.for_s > 0.0 && fault.for_s < 1e9, fault, "for_s", fault.for_s,
-          "more than 0 and less than 1e9");
-  const double x = fault.magnitude;
-  switch (fault.kind) {
-    case FaultKind::kSaturation:
-    case FaultKind::kTimeJitter:
-    case FaultKind::kOutlierBurst:
-      return Require(x > 0.0 && x < 1e9, fault, "magnitude", x, "more than 0");
-    case FaultKind::kExtraDelay:
-      return Require(x > 0.0 && x < 1e6, fault, "magnitude", x, "more than 0 seconds, up to 1e6");
-    default:
-      return Require(true, fault, "magnitude", x, "a finite number");
-  }
+  const std::string what =
+      "fault " + std::string(FaultKindName(fault.kind)) + " of sensor '" + fault.sensor + "'";
+  RequireIn(FaultConfig::kStart, fault.at_s, what, "at_s");
+  RequireIn(FaultConfig::kDuration, fault.for_s, what, "for_s");
+  RequireIn(MagnitudeRange(fault.kind), fault.magnitude, what, "magnitude");
 }
 
 models::TimeNs Nanoseconds(double seconds) { return std::llround(seconds * 1e9); }
@@ -86,6 +97,25 @@ std::string_view FaultKindName(FaultKind kind) {
   return kNames.at(static_cast<std::size_t>(kind));
 }
 
+std::string_view FaultChannelsName(FaultChannels channels) {
+  constexpr std::array<std::string_view, 5> kNames{"all", "gyro", "accel", "angle", "rate"};
+  return kNames.at(static_cast<std::size_t>(channels));
+}
+
+bool HasChannels(const SensorErrors& sensor, FaultChannels channels) {
+  switch (channels) {
+    case FaultChannels::kAll:
+      return true;
+    case FaultChannels::kGyro:
+    case FaultChannels::kAccel:
+      return std::holds_alternative<ImuConfig>(sensor);
+    case FaultChannels::kAngle:
+    case FaultChannels::kRate:
+      return std::holds_alternative<EncoderConfig>(sensor);
+  }
+  return false;
+}
+
 FaultInjector::FaultInjector(std::string_view sensor, std::span<const FaultConfig> schedule,
                              std::uint64_t seed) {
   for (std::size_t i = 0; i < schedule.size(); ++i) {
@@ -94,7 +124,7 @@ FaultInjector::FaultInjector(std::string_view sensor, std::span<const FaultConfi
     Check(fault);
     const std::string stream = "fault." + std::to_string(i) + "." + fault.sensor;
     faults_.push_back({fault.kind, Nanoseconds(fault.at_s), Nanoseconds(fault.at_s + fault.for_s),
-                       fault.magnitude, RandomStream(seed, stream), std::nullopt});
+                       fault.magnitude, fault.channels, RandomStream(seed, stream), std::nullopt});
     jitters_ = jitters_ || fault.kind == FaultKind::kTimeJitter;
   }
 }
@@ -112,6 +142,7 @@ bool FaultInjector::Apply(models::Measurement& message) {
   if (sent && jitters_) {
     if (last_valid_ns_) message.valid_ns = std::max(message.valid_ns, *last_valid_ns_ + 1);
     last_valid_ns_ = message.valid_ns;
+    message.arrival_ns = std::max(message.arrival_ns, message.valid_ns);
   }
   return sent;
 }
@@ -127,13 +158,15 @@ bool FaultInjector::ApplyOne(Fault& fault, models::Measurement& message) const {
       sample = *fault.last_good;
       break;
     case FaultKind::kBiasStep:
-      ForEachChannel(sample, [&](std::uint32_t, double& value) { value += magnitude; });
+      ForEachChannel(sample, fault.channels,
+                     [&](std::uint32_t, double& value) { value += magnitude; });
       break;
     case FaultKind::kScaleStep:
-      ForEachChannel(sample, [&](std::uint32_t, double& value) { value *= magnitude; });
+      ForEachChannel(sample, fault.channels,
+                     [&](std::uint32_t, double& value) { value *= magnitude; });
       break;
     case FaultKind::kSaturation:
-      Saturate(sample, magnitude);
+      Saturate(sample, fault.channels, magnitude);
       break;
     case FaultKind::kExtraDelay:
       message.arrival_ns += Nanoseconds(magnitude);
@@ -142,10 +175,10 @@ bool FaultInjector::ApplyOne(Fault& fault, models::Measurement& message) const {
       message.valid_ns += Nanoseconds(magnitude * fault.draws.Normal(0, index_));
       break;
     case FaultKind::kOutlierBurst:
-      AddOutlier(sample, magnitude, fault.draws, index_);
+      AddOutlier(sample, fault.channels, magnitude, fault.draws, index_);
       break;
     case FaultKind::kNanBurst:
-      ForEachChannel(sample, [](std::uint32_t, double& value) {
+      ForEachChannel(sample, fault.channels, [](std::uint32_t, double& value) {
         value = std::numeric_limits<double>::quiet_NaN();
       });
       break;

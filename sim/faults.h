@@ -20,13 +20,16 @@ namespace reckon::sim {
 class FaultInjector {
  public:
   /// Takes the entries of `schedule` that name `sensor`. Throws std::invalid_argument for a start,
-  /// duration or magnitude that no fault of its kind can have.
+  /// duration or magnitude that no fault of its kind can have; that the sensor has the channels is
+  /// the caller's to check.
   FaultInjector(std::string_view sensor, std::span<const FaultConfig> schedule, std::uint64_t seed);
 
   /// Passes the sensor's next message through all of its faults; false: it is never sent.
   ///
   /// Misreported times of validity stay strictly increasing: one that would not is set 1 ns after
-  /// the stamp before it, also after the jitter's end, until the true stamps have caught up.
+  /// the stamp before it, also after the jitter's end, until the true stamps have caught up. No
+  /// message arrives before the validity that it claims: a receiver would take it for one from the
+  /// future.
   /// Arrivals may change their order (a delay that ends): the receiver sorts by arrival.
   bool Apply(models::Measurement& message);
 
@@ -35,6 +38,7 @@ class FaultInjector {
     FaultKind kind;
     models::TimeNs begin_ns, end_ns;
     double magnitude;
+    FaultChannels channels;
     RandomStream draws;
     std::optional<models::Sample> last_good;  ///< stuck: what is repeated
   };
@@ -49,5 +53,8 @@ class FaultInjector {
 
 /// The name of a kind of fault as scenarios write it: "dropout", "bias_step", …
 std::string_view FaultKindName(FaultKind kind);
+
+/// The name of channels as scenarios write it: "all", "gyro", …
+std::string_view FaultChannelsName(FaultChannels channels);
 
 }  // namespace reckon::sim

@@ -27,9 +27,9 @@ Imu::Imu(const std::string& name, models::SensorId id, const models::Pose& X_BS,
   }
   RequireNotNegative(name, "bandwidth_hz", config.bandwidth_hz);
   if (config.bandwidth_hz == 0.0) return;
-  if (config.bandwidth_hz > 0.5 / step_s_) {
+  if (config.bandwidth_hz > LargestBandwidthHz(physics_step_ns)) {
     std::ostringstream allowed;
-    allowed << "at most half the physics rate, " << 0.5 / step_s_ << " Hz";
+    allowed << "at most half the physics rate, " << LargestBandwidthHz(physics_step_ns) << " Hz";
     RefuseField(name, "bandwidth_hz", config.bandwidth_hz, allowed.str());
   }
   if (config.bandwidth_poles != 1 && config.bandwidth_poles != 2) {

@@ -14,6 +14,11 @@
 
 namespace reckon::sim {
 
+/// The highest bandwidth that the anti-alias filter can have [Hz]: half the physics rate.
+inline double LargestBandwidthHz(models::TimeNs physics_step_ns) {
+  return 0.5 / models::Seconds(physics_step_ns);
+}
+
 /// An inertial measurement unit, made from poses: p_S = p + R p_BS, R_S = R R_BS, and v_S by
 /// central difference. Over a sample's interval [i, j], in mode `increment`,
 ///     Δθ = Log(R_S,iᵀ R_S,j),  Δv = R_S,iᵀ (v_S,j − v_S,i − g Δt),

@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include "reckon/models/urdf_robot.h"
+
 namespace reckon::sim {
 
 /// A skid-steer drive as the simulator builds it: what the URDF can't say. Names are URDF joints.
@@ -13,7 +15,7 @@ struct SkidSteerConfig {
   double wheel_radius_m = 0.1651;
   double wheel_armature_kg_m2 = 0.06;
   double wheel_damping_n_m_s = 0.1;
-  double torque_limit_n_m = 40.0;  ///< of the motor of a side, at each of its wheels
+  double torque_limit_n_m = 40.0;  ///< at each wheel: a side of n wheels has n times as much
   double speed_kp = 25.0;          ///< PI loop on a side's mean speed, N m a wheel per rad/s
   double speed_ki = 150.0;
   double belt_stiffness_n_m_rad = 2500.0;  ///< a belt makes the wheels of a side turn together:
@@ -36,5 +38,9 @@ struct RobotConfig {
   std::string base_link = "base_link";
   SkidSteerConfig skid_steer;
 };
+
+/// Whether a drive can turn this joint of `urdf`: a continuous one whose parent is `base_link`.
+bool IsWheelJoint(const models::UrdfRobot& urdf, const models::UrdfJoint& joint,
+                  const std::string& base_link);
 
 }  // namespace reckon::sim

@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "reckon/sim/range.h"
+
 namespace reckon::sim {
 
 /// When a sensor samples and how long its message travels.
@@ -71,9 +73,19 @@ enum class FaultKind {
   kScaleStep,     ///< every channel is multiplied by `magnitude`
   kSaturation,    ///< every channel is clipped at ±`magnitude`; IMU flags are set
   kExtraDelay,    ///< `magnitude` seconds later
-  kTimeJitter,    ///< validity is misreported by N(0, `magnitude`²) seconds; arrival is unchanged
+  kTimeJitter,    ///< validity is misreported by N(0, `magnitude`²) seconds; a message that
+                  ///< claims to be valid after its arrival arrives then
   kOutlierBurst,  ///< with probability 0.3 a sample gets N(0, `magnitude`²) on every channel
   kNanBurst,      ///< every channel is not a number
+};
+
+/// Which of a sensor's channels a fault strikes. The others are left alone.
+enum class FaultChannels {
+  kAll,
+  kGyro,   ///< IMU: angular velocity
+  kAccel,  ///< IMU: specific force
+  kAngle,  ///< encoders: angles
+  kRate,   ///< encoders: rates
 };
 
 /// One entry of the fault schedule: acts on samples valid in [at_s, at_s + for_s).
@@ -83,6 +95,17 @@ struct FaultConfig {
   double at_s = 0.0;
   double for_s = 1.0;
   double magnitude = 0.0;
+  /// For kinds that change channels (bias step to saturation, outliers, NaN). One magnitude is
+  /// rarely right for both units of a sensor.
+  FaultChannels channels = FaultChannels::kAll;
+
+  static constexpr Range kDelay = AboveUpTo(0, 60), kJitter = AboveUpTo(0, 10);
+  static constexpr Range kLimit = AboveUpTo(0, 1e6), kOutlier = AboveUpTo(0, 1e6);
+  static constexpr Range kOffset{-1e6, 1e6}, kFactor{-1e3, 1e3};
+  static constexpr Range kStart{0, 1e6}, kDuration = AboveUpTo(0, 1e6);
 };
+
+/// Whether a sensor with these errors has the channels: all sensors have `kAll`.
+bool HasChannels(const SensorErrors& sensor, FaultChannels channels);
 
 }  // namespace reckon::sim

@@ -58,11 +58,23 @@ void CheckNames(std::span<const SensorSpec> sensors, std::span<const FaultConfig
   }
 }
 
+void CheckChannels(std::span<const SensorSpec> sensors, std::span<const FaultConfig> faults) {
+  for (const FaultConfig& fault : faults) {
+    for (const SensorSpec& spec : sensors) {
+      if (spec.name != fault.sensor || HasChannels(spec.errors, fault.channels)) continue;
+      throw std::invalid_argument("a fault strikes the channels '" +
+                                  std::string(FaultChannelsName(fault.channels)) + "' of '" +
+                                  fault.sensor + "', which that sensor does not have");
+    }
+  }
+}
+
 }  // namespace
 
 SensorSuite::SensorSuite(std::span<const SensorSpec> sensors, std::span<const FaultConfig> faults,
                          std::uint64_t seed, double physics_step_s, double gravity_m_s2) {
   CheckNames(sensors, faults);
+  CheckChannels(sensors, faults);
   const models::TimeNs step_ns = StepNs(physics_step_s);
   for (const SensorSpec& spec : sensors) {
     auto sensor = std::visit(Maker{spec, seed, step_ns, gravity_m_s2}, spec.errors);

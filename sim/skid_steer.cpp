@@ -63,9 +63,7 @@ void SkidSteer::Check(const RobotConfig& robot, const ActualConfig& actual,
   urdf.LinkIndex(robot.base_link);
   for (const auto* side : {&robot.skid_steer.left_joints, &robot.skid_steer.right_joints}) {
     for (const auto& name : *side) {
-      const auto& joint = urdf.joints()[urdf.JointIndex(name)];
-      if (joint.type != models::JointType::kContinuous ||
-          urdf.links()[joint.parent].name != robot.base_link) {
+      if (!IsWheelJoint(urdf, urdf.joints()[urdf.JointIndex(name)], robot.base_link)) {
         Refuse(robot.name, "wheel '" + name + "' is not a continuous joint of " + robot.base_link);
       }
     }

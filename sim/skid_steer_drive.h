@@ -8,7 +8,8 @@ namespace reckon::sim {
 
 /// The motors of a skid-steer: one a side, whose wheels a belt turns together. The command is
 /// ramped, turned into wheel speeds ω = (v ∓ r B/2)/R with the nominal radius R and track B, and
-/// held by a PI loop on the side's mean speed, with a torque limit and without windup.
+/// held by a PI loop on the side's mean speed, without windup. The loop's torque acts on each wheel
+/// of the side, and its limit is that of one wheel.
 ///
 /// Wheels are ordered left front to rear, then right front to rear.
 class SkidSteerDrive {

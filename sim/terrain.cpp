@@ -10,43 +10,41 @@ namespace {
 
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr double kOverhang = 2.0;  // wheels reach beyond the map before the body leaves it [m]
-constexpr double kLargestRoughMap = 150.0;  // a table of 9e6 nodes [m]
-constexpr double kRoomToStart = 1.5;        // the robot stands between two kerbs [m]
 
 void Require(bool holds, const std::string& sentence) {
   if (!holds) throw std::invalid_argument("terrain: " + sentence);
 }
 
-bool Finite(double value, double low, double high) { return value >= low && value <= high; }
-
-void CheckSlope(const TerrainConfig& config) {
-  Require(Finite(config.angle_deg, -60.0, 60.0), "angle_deg must be within ±60");
-  Require(std::isfinite(config.uphill_deg), "uphill_deg must be finite");
+void RequireIn(const Range& range, double value, const char* key) {
+  RequireIn(range, value, "terrain", key);
 }
 
 void CheckRough(const TerrainConfig& config) {
-  Require(Finite(config.rms_m, 0.0, 1.0), "rms_m must be within 0 and 1");
-  Require(Finite(config.shortest_wave_m, 0.4, 1e3), "shortest_wave_m must be at least 0.4");
-  Require(Finite(config.longest_wave_m, config.shortest_wave_m, 1e3),
+  RequireIn(TerrainConfig::kRoughHalfSize, config.half_size_m, "half_size_m of rough ground");
+  RequireIn(TerrainConfig::kRms, config.rms_m, "rms_m");
+  RequireIn(TerrainConfig::kWave, config.shortest_wave_m, "shortest_wave_m");
+  RequireIn(TerrainConfig::kWave, config.longest_wave_m, "longest_wave_m");
+  Require(config.shortest_wave_m <= config.longest_wave_m,
           "longest_wave_m must be at least shortest_wave_m");
-  Require(config.half_size_m <= kLargestRoughMap,
-          "half_size_m of rough ground must be at most 150");
 }
 
 void CheckKerbs(const TerrainConfig& config) {
-  // The chassis has no contacts: a kerb that could meet it is refused.
-  Require(Finite(config.kerb_height_m, 1e-3, 0.12), "kerb_height_m must be within 0.001 and 0.12");
-  Require(Finite(config.kerb_width_m, 1e-2, 1e3), "kerb_width_m must be at least 0.01");
-  Require(Finite(config.kerb_spacing_m, config.kerb_width_m + kRoomToStart, 1e6),
+  RequireIn(TerrainConfig::kKerbHeight, config.kerb_height_m, "kerb_height_m");
+  RequireIn(TerrainConfig::kKerbWidth, config.kerb_width_m, "kerb_width_m");
+  RequireIn(TerrainConfig::kKerbSpacing, config.kerb_spacing_m, "kerb_spacing_m");
+  Require(config.kerb_spacing_m >= config.LeastKerbSpacing(),
           "kerb_spacing_m must exceed kerb_width_m by at least 1.5, so that the robot can stand "
           "between two kerbs");
 }
 
 void Check(const TerrainConfig& config) {
-  Require(Finite(config.friction, 0.0, 5.0), "friction must be within 0 and 5");
-  Require(Finite(config.rolling_resistance, 0.0, 1.0), "rolling_resistance must be within 0 and 1");
-  Require(Finite(config.half_size_m, 1.0, 1e5), "half_size_m must be at least 1");
-  if (config.kind == TerrainKind::kSlope) CheckSlope(config);
+  RequireIn(TerrainConfig::kFriction, config.friction, "friction");
+  RequireIn(TerrainConfig::kRollingResistance, config.rolling_resistance, "rolling_resistance");
+  RequireIn(TerrainConfig::kHalfSize, config.half_size_m, "half_size_m");
+  if (config.kind == TerrainKind::kSlope) {
+    RequireIn(TerrainConfig::kAngle, config.angle_deg, "angle_deg");
+    RequireIn(TerrainConfig::kUphill, config.uphill_deg, "uphill_deg");
+  }
   if (config.kind == TerrainKind::kRough) CheckRough(config);
   if (config.kind == TerrainKind::kKerbs) CheckKerbs(config);
 }
@@ -58,9 +56,9 @@ Terrain::Terrain(const TerrainConfig& config, const std::vector<PatchConfig>& pa
     : config_(config) {
   Check(config);
   for (const auto& [box, friction] : patches) {
-    Require(std::isfinite(box[0]) && std::isfinite(box[1]), "a patch's centre must be finite");
+    for (const double value : box) RequireIn(PatchConfig::kBox, value, "a patch's box_m");
     Require(box[2] > 0 && box[3] > 0, "a patch's sizes must be positive");
-    Require(Finite(friction, 0.0, 5.0), "a patch's friction must be within 0 and 5");
+    RequireIn(TerrainConfig::kFriction, friction, "a patch's friction");
     patches_.push_back({box[0] - box[2] / 2, box[0] + box[2] / 2, box[1] - box[3] / 2,
                         box[1] + box[3] / 2, friction});
   }

@@ -6,6 +6,8 @@
 
 #include <Eigen/Core>
 
+#include "reckon/sim/range.h"
+
 namespace reckon::sim {
 
 enum class TerrainKind { kFlat, kSlope, kRough, kKerbs };
@@ -24,12 +26,27 @@ struct TerrainConfig {
   double kerb_height_m = 0.04;   ///< kerbs: boxes across the path,
   double kerb_width_m = 0.30;    ///<        this wide (along x),
   double kerb_spacing_m = 3.0;   ///<        one every so many metres along x
+
+  static constexpr Range kFriction{0, 3}, kRollingResistance{0, 1}, kHalfSize{2, 1000};
+  /// Rough ground is a table: one of 150 m has 9e6 nodes.
+  static constexpr Range kRoughHalfSize{2, 150};
+  static constexpr Range kAngle{-45, 45}, kUphill{-360, 360};
+  /// The table's nodes lie 0.1 m apart, four of them to the shortest wave.
+  static constexpr Range kRms{0, 1}, kWave{0.4, 1000};
+  /// The chassis has no contacts: a kerb that could meet it is refused.
+  static constexpr Range kKerbHeight{1e-3, 0.12};
+  static constexpr Range kKerbWidth{0.01, 100}, kKerbSpacing = AboveUpTo(0, 1000);
+  /// The spacing exceeds the width by at least this: the robot stands between two kerbs.
+  static constexpr double kRoomBetweenKerbs = 1.5;  // m
+  double LeastKerbSpacing() const { return kerb_width_m + kRoomBetweenKerbs; }
 };
 
 /// A rectangle with another friction: [centre x, centre y, size x, size y].
 struct PatchConfig {
   std::array<double, 4> box_m{0, 0, 1, 1};
   double friction = 0.15;
+
+  static constexpr Range kBox{-1e4, 1e4};
 };
 
 enum class PathKind { kStand, kSquare, kCircle, kFigureEight, kWaypoints, kVelocityProfile };
@@ -67,6 +84,11 @@ struct WorldConfig {
   std::vector<PatchConfig> patches;
   MotionConfig motion;
   ActualConfig actual;
+
+  static constexpr Range kPhysicsStep{1e-5, 0.005};
+  /// Without weight nothing holds the robot on the ground.
+  static constexpr Range kGravity = AboveUpTo(0, 30);
+  static constexpr Range kSettle{0, 60};
 };
 
 }  // namespace reckon::sim

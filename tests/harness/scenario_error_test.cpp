@@ -69,8 +69,7 @@ INSTANTIATE_TEST_SUITE_P(
              "100000, found '-60'"},
         Case{"WrongUnit", "world: {physics_step_s: 1}   # milliseconds\n",
              "sc.yaml:1:25: error: '/world/physics_step_s': expected a finite number from 1e-05 "
-             "to "
-             "0.01, found '1'"},
+             "to 0.005, found '1'"},
         Case{"NaN", "motion: {path: square, speed_m_s: .nan}\n",
              "sc.yaml:1:35: error: '/motion/speed_m_s': expected a finite number above 0 and at "
              "most 20, found '.nan'"},
@@ -139,7 +138,8 @@ INSTANTIATE_TEST_SUITE_P(
              "sc.yaml:3:40: error: '/faults/0/at_s': expected a time before the run's end, found "
              "'6'"},
         Case{"NoWaypoints", "motion: {path: waypoints}\n",
-             "sc.yaml:1:9: error: '/motion/waypoints_m': expected at least one point [x, y]"},
+             "sc.yaml:1:9: error: '/motion/waypoints_m': expected at least one point [x, y] "
+             "other than the origin"},
         Case{"ProfileGoesBack",
              "motion: {path: velocity_profile, profile: [[1, 0, 0], [1, 0, 0]]}\n",
              "sc.yaml:1:56: error: '/motion/profile/1/0': expected times of at least 0 that rise, "
@@ -148,8 +148,9 @@ INSTANTIATE_TEST_SUITE_P(
             "UnknownEstimator", "estimators: {a: {type: inekff}}\n",
             "sc.yaml:1:24: error: '/estimators/a/type': expected inekf, mekf, odometry or process, "
             "found 'inekff'; did you mean 'inekf'?"},
-        Case{"LeftError", "estimators: {a: {type: inekf, error: left}}\n",
-             "sc.yaml:1:38: error: '/estimators/a/error': expected right, found 'left'"},
+        Case{"UnknownError", "estimators: {a: {type: inekf, error: lefft}}\n",
+             "sc.yaml:1:38: error: '/estimators/a/error': expected right or left, found 'lefft'; "
+             "did you mean 'left'?"},
         Case{"ErrorOfMekf", "estimators: {a: {type: mekf, error: right}}\n",
              "sc.yaml:1:30: error: key 'error' in '/estimators/a' belongs to type 'inekf', not to "
              "'mekf'"},
@@ -184,6 +185,90 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"MissingInclude", "include: base.yaml\n",
              "sc.yaml:1:10: error: '/include': there is no file 'base.yaml'"}),
     [](const auto& test) { return test.param.name; });
+
+// What only the simulator would refuse, if the reader did not.
+INSTANTIATE_TEST_SUITE_P(
+    Simulator, WrongText,
+    testing::Values(
+        Case{"RoughMapTooLarge", "world: {terrain: {kind: rough, half_size_m: 900}}\n",
+             "sc.yaml:1:45: error: '/world/terrain/half_size_m': expected a finite number from 2 "
+             "to 150, found '900'"},
+        Case{"WavesTooShort", "world: {terrain: {kind: rough, shortest_wave_m: 0.3}}\n",
+             "sc.yaml:1:49: error: '/world/terrain/shortest_wave_m': expected a finite number from "
+             "0.4 to 1000, found '0.3'"},
+        Case{"WavesCross", "world: {terrain: {kind: rough, longest_wave_m: 0.5}}\n",
+             "sc.yaml:1:48: error: '/world/terrain/longest_wave_m': expected at least "
+             "shortest_wave_m, 0.6, found '0.5'"},
+        Case{"KerbTooHigh", "world: {terrain: {kind: kerbs, kerb_height_m: 0.3}}\n",
+             "sc.yaml:1:47: error: '/world/terrain/kerb_height_m': expected a finite number from "
+             "0.001 to 0.12, found '0.3'"},
+        Case{"KerbsTooClose", "world: {terrain: {kind: kerbs, kerb_spacing_m: 0.5}}\n",
+             "sc.yaml:1:48: error: '/world/terrain/kerb_spacing_m': expected at least 1.8, the "
+             "kerb's width and room for the robot, found '0.5'"},
+        Case{"NoGravity", "world: {gravity_m_s2: 0}\n",
+             "sc.yaml:1:23: error: '/world/gravity_m_s2': expected a finite number above 0 and at "
+             "most 30, found '0'"},
+        Case{"BandwidthBeyondThePhysics", "sensors:\n  imu: {bandwidth_hz: 800}\n",
+             "sc.yaml:2:23: error: '/sensors/imu/bandwidth_hz': expected at most half the physics "
+             "rate, 500 Hz, found '800'"},
+        Case{"WindowBeyondThePeriod", "sensors:\n  wheels: {rate_window_s: 0.5}\n",
+             "sc.yaml:2:27: error: '/sensors/wheels/rate_window_s': expected at most the sample "
+             "period of 0.02 s, found '0.5'"},
+        Case{"WheelThatDoesNotTurn", "drive: {left_joints: [imu_joint]}\n",
+             "sc.yaml:1:23: error: '/drive/left_joints/0': expected a continuous joint of "
+             "base_link (front_left_wheel, front_right_wheel, rear_left_wheel, rear_right_wheel), "
+             "found 'imu_joint'"},
+        Case{"WaypointsAtTheStart", "motion: {path: waypoints, waypoints_m: [[0, 0]]}\n",
+             "sc.yaml:1:40: error: '/motion/waypoints_m': expected at least one point [x, y] other "
+             "than the origin, found a list"},
+        Case{"DelayOfNothing",
+             "faults:\n  - {sensor: imu, kind: extra_delay, at_s: 1, delay_s: 0}\n",
+             "sc.yaml:2:56: error: '/faults/0/delay_s': expected a finite number above 0 and at "
+             "most 60, found '0'"},
+        Case{"JitterOfNothing",
+             "faults:\n  - {sensor: imu, kind: time_jitter, at_s: 1, std_s: 0}\n",
+             "sc.yaml:2:54: error: '/faults/0/std_s': expected a finite number above 0 and at most "
+             "10, found '0'"}),
+    [](const auto& test) { return test.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(
+    FaultChannels, WrongText,
+    testing::Values(
+        Case{"OfEncodersOnAnImu",
+             "faults:\n  - {sensor: imu, kind: bias_step, at_s: 1, offset: 1, channels: rate}\n",
+             "sc.yaml:2:66: error: '/faults/0/channels': expected channels of the sensor 'imu' "
+             "(all, gyro, accel), found 'rate'"},
+        Case{"OfAnImuOnEncoders",
+             "faults:\n  - {sensor: wheels, kind: nan_burst, at_s: 1, channels: gyro}\n",
+             "sc.yaml:2:58: error: '/faults/0/channels': expected channels of the sensor 'wheels' "
+             "(all, angle, rate), found 'gyro'"},
+        Case{
+            "OfASensorThatHasOnlyOne",
+            "sensors: {v: {type: body_velocity, frame: velocity_link}}\n"
+            "faults:\n  - {sensor: v, kind: saturation, at_s: 1, limit: 1, channels: accel}\n",
+            "sc.yaml:3:64: error: '/faults/0/channels': expected channels of the sensor 'v' (all), "
+            "found 'accel'"},
+        Case{"OfNoSensor",
+             "faults:\n  - {sensor: imu, kind: scale_step, at_s: 1, factor: 2, channels: gyr}\n",
+             "sc.yaml:2:67: error: '/faults/0/channels': expected all, gyro, accel, angle or rate, "
+             "found 'gyr'; did you mean 'gyro'?"},
+        Case{"OfAFaultWithoutChannels",
+             "faults:\n  - {sensor: imu, kind: dropout, at_s: 1, channels: gyro}\n",
+             "sc.yaml:2:43: error: key 'channels' in '/faults/0' belongs to kind 'bias_step', "
+             "'scale_step', 'saturation', 'outlier_burst', 'nan_burst', not to 'dropout'"}),
+    [](const auto& test) { return test.param.name; });
+
+TEST(ScenarioError, ChannelsThatTheSensorHasAreRead) {
+  const auto channels = [](const std::string& sensor, const std::string& word) {
+    const std::string fault = "{sensor: " + sensor + ", kind: bias_step, at_s: 1, offset: 1" + word;
+    return ReadScenarioText("faults: [" + fault + "}]\n", "sc.yaml", {}).faults.at(0).channels;
+  };
+  EXPECT_EQ(channels("imu", ""), sim::FaultChannels::kAll);
+  EXPECT_EQ(channels("imu", ", channels: gyro"), sim::FaultChannels::kGyro);
+  EXPECT_EQ(channels("imu", ", channels: accel"), sim::FaultChannels::kAccel);
+  EXPECT_EQ(channels("wheels", ", channels: angle"), sim::FaultChannels::kAngle);
+  EXPECT_EQ(channels("wheels", ", channels: rate"), sim::FaultChannels::kRate);
+}
 
 TEST(ScenarioError, ReportsSeveralAtOnce) {
   EXPECT_EQ(MessageOf("sede: 1\nduration_s: -1\nmotion: {path: sqare}\n"),

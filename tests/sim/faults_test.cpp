@@ -1,5 +1,6 @@
 #include "reckon/sim/faults.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -7,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "reckon/estimator/sample_checks.h"
 #include "sim/statistics.h"
 
 namespace reckon::sim {
@@ -138,7 +140,7 @@ TEST(Faults, TimeJitterMisreportsValidityAndKeepsItIncreasing) {
   std::vector<double> error;
   for (int n = 99; n < 100'000; ++n) {
     const Measurement& m = out[static_cast<std::size_t>(n)];
-    EXPECT_EQ(m.arrival_ns, ImuMessage(n).arrival_ns);
+    EXPECT_EQ(m.arrival_ns, std::max(ImuMessage(n).arrival_ns, m.valid_ns));
     error.push_back(models::Seconds(m.valid_ns - ImuMessage(n).valid_ns));
   }
   // Ten milliseconds between samples: 1 ms of jitter never touches the order.
@@ -149,6 +151,81 @@ TEST(Faults, TimeJitterMisreportsValidityAndKeepsItIncreasing) {
   for (std::size_t n = 1; n < wild.size(); ++n) ASSERT_GT(wild[n].valid_ns, wild[n - 1].valid_ns);
   EXPECT_EQ(wild[50].valid_ns, ImuMessage(50).valid_ns);
   EXPECT_EQ(wild[299].valid_ns, ImuMessage(299).valid_ns);
+}
+
+TEST(Faults, JitteredMessagesOfASensorWithoutLatencyAreNoneOfTheFuture) {
+  models::Suite suite;
+  suite.sensors.push_back({"imu", models::SensorKind::kImu, {}, 10 * kMs});
+  FaultInjector faults("imu", std::vector{Fault(FaultKind::kTimeJitter, 0.003)}, 1);
+  int late = 0;
+  for (int n = 0; n < 300; ++n) {
+    Measurement m = ImuMessage(n);
+    m.arrival_ns = m.valid_ns;
+    ASSERT_TRUE(faults.Apply(m));
+    EXPECT_LE(m.valid_ns, m.arrival_ns) << n;
+    EXPECT_EQ(estimator::WhatIsWrong(m, suite), estimator::Refusal::kNone) << n;
+    if (m.arrival_ns > ImuMessage(n).valid_ns) ++late;
+  }
+  // Half of the fifty that are jittered claim a later time: 25 ± 3.5 of a binomial, five sigma.
+  EXPECT_NEAR(late, 25, 18);
+}
+
+TEST(Faults, StrikeTheChosenChannelsOfAnImu) {
+  FaultConfig fault = Fault(FaultKind::kBiasStep, 0.25);
+  fault.channels = FaultChannels::kGyro;
+  ExpectWithin(fault, [](Measurement& m, int) { Edit(m).gyro_rad_s.array() += 0.25; });
+  fault.channels = FaultChannels::kAccel;
+  ExpectWithin(fault, [](Measurement& m, int) { Edit(m).accel_m_s2.array() += 0.25; });
+  fault = Fault(FaultKind::kScaleStep, 1.5);
+  fault.channels = FaultChannels::kAccel;
+  ExpectWithin(fault, [](Measurement& m, int) { Edit(m).accel_m_s2 *= 1.5; });
+}
+
+TEST(Faults, SaturateTheChosenChannelsAndFlagThemAlone) {
+  FaultConfig fault = Fault(FaultKind::kSaturation, 120.0);
+  fault.channels = FaultChannels::kGyro;
+  ExpectWithin(fault, [](Measurement& m, int n) {
+    if (n <= 120) return;
+    Edit(m).gyro_rad_s.setConstant(120.0);
+    Edit(m).gyro_saturated = true;
+  });
+  fault.channels = FaultChannels::kAccel;
+  ExpectWithin(fault, [](Measurement& m, int n) {
+    if (n <= 120) return;
+    Edit(m).accel_m_s2.setConstant(-120.0);
+    Edit(m).accel_saturated = true;
+  });
+}
+
+TEST(Faults, OutliersOfChosenChannelsAreThoseOfAllChannels) {
+  FaultConfig fault = Fault(FaultKind::kOutlierBurst, 5.0);
+  const auto all = Pass({fault});
+  fault.channels = FaultChannels::kAccel;
+  const auto accel = Pass({fault});
+  int hit = 0;
+  for (int n = 0; n < 300; ++n) {
+    const auto i = static_cast<std::size_t>(n);
+    EXPECT_EQ(Imu(accel[i]).gyro_rad_s, Imu(ImuMessage(n)).gyro_rad_s) << n;
+    EXPECT_EQ(Imu(accel[i]).accel_m_s2, Imu(all[i]).accel_m_s2) << n;
+    if (Imu(accel[i]).accel_m_s2 != Imu(ImuMessage(n)).accel_m_s2) ++hit;
+  }
+  EXPECT_GT(hit, 0);
+}
+
+TEST(Faults, StrikeTheChosenChannelsOfEncoders) {
+  EncoderSample encoders;
+  encoders.angle_rad.setConstant(4, 2.0);
+  encoders.rate_rad_s.setConstant(4, 3.0);
+  for (const bool angle : {true, false}) {
+    FaultConfig fault = Fault(FaultKind::kBiasStep, 0.5);
+    fault.channels = angle ? FaultChannels::kAngle : FaultChannels::kRate;
+    FaultInjector faults("imu", std::vector{fault}, 1);
+    Measurement m{0, 1100 * kMs, 1100 * kMs, encoders};
+    ASSERT_TRUE(faults.Apply(m));
+    const auto& found = std::get<EncoderSample>(m.sample);
+    EXPECT_EQ(found.angle_rad, models::EncoderVector::Constant(4, angle ? 2.5 : 2.0));
+    EXPECT_EQ(found.rate_rad_s, models::EncoderVector::Constant(4, angle ? 3.0 : 3.5));
+  }
 }
 
 TEST(Faults, OutlierBurstHitsThreeSamplesInTen) {
@@ -218,7 +295,7 @@ TEST(Faults, RepeatForASeedAndDifferForAnother) {
 }
 
 TEST(Faults, RefuseWhatNoFaultCanHave) {
-  const auto refusal = [](FaultConfig fault) -> std::string {
+  const auto refusal = [](const FaultConfig& fault) -> std::string {
     try {
       FaultInjector("imu", std::vector{fault}, 1);
     } catch (const std::invalid_argument& error) {
@@ -228,8 +305,9 @@ TEST(Faults, RefuseWhatNoFaultCanHave) {
   };
   FaultConfig fault = Fault(FaultKind::kDropout);
   fault.for_s = -1.0;
-  EXPECT_EQ(refusal(fault),
-            "fault dropout of sensor 'imu': for_s is -1, expected more than 0 and less than 1e9");
+  EXPECT_EQ(
+      refusal(fault),
+      "fault dropout of sensor 'imu': for_s is -1, expected a number above 0 and at most 1e+06");
   fault = Fault(FaultKind::kDropout);
   fault.at_s = -1.0;
   EXPECT_NE(refusal(fault).find("at_s is -1"), std::string::npos);

@@ -190,6 +190,11 @@ TEST(SensorSuite, RefusesDuplicateNamesUnknownFaultTargetsAndOddSteps) {
   const std::vector<FaultConfig> faults{{.sensor = "lidar"}};
   EXPECT_EQ(refusal({ImuSpec("imu")}, faults, 0.001),
             "a fault names the sensor 'lidar', which the robot does not have");
+  const std::vector<FaultConfig> rate_of_imu{{.sensor = "imu", .channels = FaultChannels::kRate}};
+  EXPECT_EQ(refusal({ImuSpec("imu")}, rate_of_imu, 0.001),
+            "a fault strikes the channels 'rate' of 'imu', which that sensor does not have");
+  const std::vector<FaultConfig> gyro{{.sensor = "imu", .channels = FaultChannels::kGyro}};
+  EXPECT_EQ(refusal({ImuSpec("imu")}, gyro, 0.001), "");
   EXPECT_NE(refusal({}, {}, 1.0 / 3.0), "");
   EXPECT_NE(refusal({}, {}, 0.0), "");
   EXPECT_EQ(refusal({ImuSpec("imu")}, {}, 0.001), "");
