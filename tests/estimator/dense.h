@@ -38,9 +38,8 @@ Eigen::Matrix<Real, kRows, 15> DenseH(const Linearisation<kRows>& m) {
 /// An increment without feet.
 inline ErrorVector DenseIncrement(const SlotVector& increment) {
   ErrorVector dense;
-  for (const Slot slot :
-       {estimator::kThetaSlot, estimator::kVelocitySlot, estimator::kPositionSlot,
-        estimator::kGyroBiasSlot, estimator::kAccelBiasSlot}) {
+  for (const Slot slot : {estimator::kThetaSlot, estimator::kVelocitySlot, estimator::kPositionSlot,
+                          estimator::kGyroBiasSlot, estimator::kAccelBiasSlot}) {
     dense.segment<3>(PlaceOf(slot)) = ToEigen(increment[slot]);
   }
   return dense;
