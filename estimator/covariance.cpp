@@ -8,13 +8,6 @@ namespace {
 constexpr std::array<Slot, 5> kCore{kThetaSlot, kVelocitySlot, kPositionSlot, kGyroBiasSlot,
                                     kAccelBiasSlot};
 
-/// C += A Bᵀ.
-void AddTimesTransposed(LaneMatrix& C, const LaneMatrix& A, const LaneMatrix& B) {
-  for (int j = 0; j < 3; ++j) {
-    for (int k = 0; k < 3; ++k) C.column[j] += B(j, k) * A.column[k];
-  }
-}
-
 }  // namespace
 
 void Covariance::Start(const ErrorCovariance& P) {
@@ -39,7 +32,8 @@ void Covariance::MapRow(Slot i, const LaneMatrix& M) {
   (*this)(i, i) = TimesTransposed((*this)(i, i), M);
 }
 
-void Covariance::AddBiases(const BiasColumns& J, double gyro_q, double accel_q) {
+void Covariance::AddBiases(const BiasColumns& J, const ProcessNoise& noise, double dt) {
+  const double gyro_q = noise.gyro / (2.0 * dt), accel_q = noise.accel / (2.0 * dt);
   const LaneMatrix gg = (*this)(kGyroBiasSlot, kGyroBiasSlot);
   const LaneMatrix ga = (*this)(kGyroBiasSlot, kAccelBiasSlot);
   const LaneMatrix ag = Transposed(ga);
@@ -81,10 +75,8 @@ void Covariance::AddBiases(const BiasColumns& J, double gyro_q, double accel_q) 
       if (const LaneMatrix* Ja = accel(i)) AddTimesTransposed(P, *Ja, Wa[j]);
     }
   }
-}
-
-void Covariance::AddDiagonal(Slot slot, double variance) {
-  (*this)(slot, slot) += LaneMatrix::Diagonal(variance);
+  (*this)(kGyroBiasSlot, kGyroBiasSlot) += LaneMatrix::Diagonal(noise.gyro_walk * dt);
+  (*this)(kAccelBiasSlot, kAccelBiasSlot) += LaneMatrix::Diagonal(noise.accel_walk * dt);
 }
 
 void Covariance::AddFoot(Slot foot, const LaneMatrix& noise) {

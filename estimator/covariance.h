@@ -7,6 +7,7 @@
 
 #include "reckon/estimator/estimate.h"
 #include "reckon/estimator/lane_matrix.h"
+#include "reckon/estimator/navigation_state.h"
 #include "reckon/estimator/slot.h"
 
 namespace reckon::estimator {
@@ -14,7 +15,7 @@ namespace reckon::estimator {
 /// The bias columns of a transition Φ and of the noise of a held sample, by row: the accelerometer
 /// moves velocity and position alone.
 struct BiasColumns {
-  std::array<LaneMatrix, kSlots> gyro;  ///< of θ, v, p and every active foot
+  std::array<LaneMatrix, kSlots> gyro{};  ///< of θ, v, p and every active foot
   LaneMatrix accel_velocity, accel_position;
 };
 
@@ -38,21 +39,18 @@ class Covariance {
     return i <= j ? (*this)(i, j) : Transposed((*this)(j, i));
   }
 
-  /// e_i ← e_i + M e_j, with `M` as a function of what it is multiplied with.
-  template <class Map>
-  void AddRow(Slot i, const Map& M, Slot j);
+  /// e_i ← e_i + M e_j; `M` is what a block can be multiplied with.
+  template <class Factor>
+  void AddRow(Slot i, const Factor& M, Slot j);
 
   /// e_i ← M e_i.
   void MapRow(Slot i, const LaneMatrix& M);
 
-  /// e ← e + J e_b beside white noise that acts as a bias for one step: with B the biases' block, U
-  /// the bias cross-covariance, U′ = U + J B and W = (U + U′)/2 + J q,
-  ///     P ← P + W Jᵀ + J Wᵀ,  U ← U′.
-  /// `q` is half the variance of the held sample, Q/(2Δt).
-  void AddBiases(const BiasColumns& J, double gyro_q, double accel_q);
-
-  /// Adds `variance` to the diagonal of a slot.
-  void AddDiagonal(Slot slot, double variance);
+  /// The biases' part of a step over `dt`: e ← e + J e_b beside the white noise of a held sample,
+  /// which acts as a bias for one step. With B the biases' block, U the bias cross-covariance,
+  /// U′ = U + J B and W = (U + U′)/2 + J Q/(2Δt),
+  ///     P ← P + W Jᵀ + J Wᵀ,  U ← U′,  B ← B + Q_walk Δt.
+  void AddBiases(const BiasColumns& J, const ProcessNoise& noise, double dt);
 
   /// Makes `foot` a copy of the position's error plus an independent `noise`.
   void AddFoot(Slot foot, const LaneMatrix& noise);
@@ -62,9 +60,6 @@ class Covariance {
 
   /// θ, v, p and biases as a dense matrix.
   ErrorCovariance Dense() const;
-
-  /// A block as a dense matrix, and back; (i, j) in any order.
-  Eigen::Matrix3d Dense(Slot i, Slot j) const { return ToEigen(Get(i, j)); }
 
  private:
   /// Adds X to the block (i, k), i ≠ k.
@@ -81,13 +76,13 @@ class Covariance {
   std::size_t size_ = 0;
 };
 
-template <class Map>
-void Covariance::AddRow(Slot i, const Map& M, Slot j) {
-  const LaneMatrix before = M(Get(j, i));
+template <class Factor>
+void Covariance::AddRow(Slot i, const Factor& M, Slot j) {
+  const LaneMatrix before = M * Get(j, i);
   for (const Slot k : active()) {
-    if (k != i) Add(i, k, M(Get(j, k)));
+    if (k != i) Add(i, k, M * Get(j, k));
   }
-  (*this)(i, i) += M(Get(j, i)) + Transposed(before);
+  (*this)(i, i) += M * Get(j, i) + Transposed(before);
 }
 
 }  // namespace reckon::estimator

@@ -1,5 +1,8 @@
 #include "reckon/estimator/kalman.h"
 
+#include <Eigen/Cholesky>
+#include <limits>
+
 namespace reckon::estimator {
 namespace {
 
@@ -26,16 +29,11 @@ Strip<kRows> Column(const Covariance& P, Slot i, const Linearisation<kRows>& m) 
   return sum;
 }
 
-/// C −= A Bᵀ.
-void Subtract(LaneMatrix& C, const LaneMatrix& A, const LaneMatrix& B) {
-  for (int j = 0; j < 3; ++j) {
-    for (int k = 0; k < 3; ++k) C.column[j] -= B(j, k) * A.column[k];
-  }
-}
-void Subtract(LaneMatrix& C, Lane a, Lane b) { C -= TimesTransposed(a, b); }
-
-LaneMatrix ToLanesOrNumber(const Eigen::Matrix3d& M) { return ToLanes(M); }
-double ToLanesOrNumber(const Eigen::Matrix<double, 1, 1>& m) { return m(0); }
+// What stands beside a strip in a product: a matrix and a vector, or for one row two numbers.
+LaneMatrix Factor(const Eigen::Matrix3d& M) { return ToLanes(M); }
+Lane Factor(const Eigen::Vector3d& v) { return ToLane(v); }
+double Factor(const Eigen::Matrix<double, 1, 1>& m) { return m(0); }
+Lane operator*(Lane strip, double factor) { return factor * strip; }
 
 }  // namespace
 
@@ -73,37 +71,25 @@ void KalmanCorrection<kRows>::Inflate(double target) {
 template <int kRows>
 SlotVector KalmanCorrection<kRows>::Gain() const {
   SlotVector increment;
-  const Vector weighted = S_inverse_ * m_.z;
-  for (const Slot i : active_) {
-    if constexpr (kRows == 3) {
-      increment[i] = C_[i] * ToLane(weighted);
-    } else {
-      increment[i] = weighted(0) * C_[i];
-    }
-  }
+  const auto weighted = Factor(Vector(S_inverse_ * m_.z));
+  for (const Slot i : active_) increment[i] = C_[i] * weighted;
   return increment;
 }
 
 template <int kRows>
 void KalmanCorrection<kRows>::UpdateCovariance(Covariance& P) const {
-  const auto S_inverse = ToLanesOrNumber(S_inverse_);
-  const auto N = ToLanesOrNumber(N_);
+  const auto S_inverse = Factor(S_inverse_);
+  const auto N = Factor(N_);
   std::array<Strip<kRows>, kSlots> K, T;
-  for (const Slot i : active_) {
-    if constexpr (kRows == 3) K[i] = C_[i] * S_inverse;
-    if constexpr (kRows == 1) K[i] = S_inverse * C_[i];
-  }
-  for (std::size_t a = 0; a < active_.size(); ++a) {
-    for (const Slot j : active_.subspan(a)) Subtract(P(active_[a], j), K[active_[a]], C_[j]);
-  }
-  for (const Slot i : active_) {
-    T[i] = Column(P, i, m_);
-    if constexpr (kRows == 3) T[i] -= K[i] * N;
-    if constexpr (kRows == 1) T[i] -= N * K[i];
-  }
+  for (const Slot i : active_) K[i] = C_[i] * S_inverse;
   for (std::size_t a = 0; a < active_.size(); ++a) {
     const Slot i = active_[a];
-    for (const Slot j : active_.subspan(a)) Subtract(P(i, j), T[i], K[j]);
+    for (const Slot j : active_.subspan(a)) SubtractTimesTransposed(P(i, j), K[i], C_[j]);
+  }
+  for (const Slot i : active_) T[i] = Column(P, i, m_) - K[i] * N;
+  for (std::size_t a = 0; a < active_.size(); ++a) {
+    const Slot i = active_[a];
+    for (const Slot j : active_.subspan(a)) SubtractTimesTransposed(P(i, j), T[i], K[j]);
     P(i, i) = 0.5 * (P(i, i) + Transposed(P(i, i)));
   }
 }

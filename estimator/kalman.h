@@ -1,8 +1,8 @@
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
-#include <limits>
+#include <array>
+#include <span>
 
 #include "reckon/estimator/covariance.h"
 #include "reckon/estimator/linearisation.h"

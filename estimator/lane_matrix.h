@@ -60,12 +60,37 @@ inline LaneMatrix TimesTransposed(const LaneMatrix& A, const LaneMatrix& B) {
   return C;
 }
 
+/// C += A Bᵀ.
+inline void AddTimesTransposed(LaneMatrix& C, const LaneMatrix& A, const LaneMatrix& B) {
+  for (int j = 0; j < 3; ++j) {
+    for (int k = 0; k < 3; ++k) C.column[j] += B(j, k) * A.column[k];
+  }
+}
+
+/// C −= A Bᵀ.
+inline void SubtractTimesTransposed(LaneMatrix& C, const LaneMatrix& A, const LaneMatrix& B) {
+  for (int j = 0; j < 3; ++j) {
+    for (int k = 0; k < 3; ++k) C.column[j] -= B(j, k) * A.column[k];
+  }
+}
+
 /// a bᵀ.
 inline LaneMatrix TimesTransposed(Lane a, Lane b) { return {{b[0] * a, b[1] * a, b[2] * a}}; }
+
+/// C −= a bᵀ.
+inline void SubtractTimesTransposed(LaneMatrix& C, Lane a, Lane b) { C -= TimesTransposed(a, b); }
 
 /// [v]× A.
 inline LaneMatrix Cross(Lane v, const LaneMatrix& A) {
   return {{Cross(v, A.column[0]), Cross(v, A.column[1]), Cross(v, A.column[2])}};
+}
+
+/// [v]× as a factor.
+struct CrossProduct {
+  Lane v;
+};
+inline LaneMatrix operator*(const CrossProduct& cross, const LaneMatrix& A) {
+  return Cross(cross.v, A);
 }
 
 inline LaneMatrix ToLanes(const Eigen::Matrix3d& M) {

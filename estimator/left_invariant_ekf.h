@@ -2,22 +2,15 @@
 
 #include <Eigen/Core>
 
-#include "reckon/estimator/estimate.h"
-#include "reckon/estimator/kalman.h"
+#include "reckon/estimator/error_state.h"
 #include "reckon/estimator/linearisation.h"
-#include "reckon/estimator/navigation_state.h"
 
 namespace reckon::estimator {
 
 /// The error form of the left-invariant EKF [Hartley20]: η = X⁻¹ X̂ = exp(ξ), ζ = b̂ − b. It holds
 /// the error in I's axes. Nothing here allocates.
-class LeftInvariantEkf {
+class LeftInvariantEkf : public ErrorState<ErrorForm::kLeftInvariant> {
  public:
-  static constexpr ErrorForm kForm = ErrorForm::kLeftInvariant;
-
-  /// Starts from a right-invariant covariance, P_l = Ad_X̂⁻¹ P_r Ad_X̂⁻ᵀ.
-  void Start(const NavigationState& x, const ErrorCovariance& P_right_invariant);
-
   /// Propagates mean and covariance over one held sample, with the exact Φ of the error,
   /// Ad_X̂⁺⁻¹ Φ_r Ad_X̂:
   ///
@@ -38,17 +31,9 @@ class LeftInvariantEkf {
   /// X⁺ = X̂ exp(ξ) and b⁺ = b̂ + ζ for the increment K z.
   void Retract(const SlotVector& increment);
 
-  const NavigationState& x() const { return x_; }
-  const Covariance& P() const { return P_; }
-  Covariance& P() { return P_; }
-
   /// As RightInvariantEkf::BodyCovariance; here a turn moves the body's origin, which lies off I's.
   ErrorCovariance BodyCovariance(const Eigen::Vector3d& r_IB, const Eigen::Vector3d& w,
                                  double gyro_variance) const;
-
- private:
-  NavigationState x_;
-  Covariance P_;
 };
 
 }  // namespace reckon::estimator

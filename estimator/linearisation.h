@@ -58,7 +58,6 @@ class Linearisation {
 
  private:
   void Append(const Term<kRows>& term) {
-    static_assert(std::is_trivially_copyable_v<Term<kRows>>);
     assert(kRows == 3 || term.kind == Kind::kBlock);
     assert(size_ < terms_.size());
     terms_[size_++] = term;

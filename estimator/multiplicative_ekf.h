@@ -2,23 +2,16 @@
 
 #include <Eigen/Core>
 
-#include "reckon/estimator/estimate.h"
-#include "reckon/estimator/kalman.h"
+#include "reckon/estimator/error_state.h"
 #include "reckon/estimator/linearisation.h"
-#include "reckon/estimator/navigation_state.h"
 
 namespace reckon::estimator {
 
 /// The error form of the classical multiplicative EKF: θ = Log(Rᵀ R̂) in I's axes, v̂ − v and p̂ − p
 /// in W, ζ = b̂ − b. The mean, the noise and everything around it are those of the invariant filter:
 /// the two differ in their error alone. Nothing here allocates.
-class MultiplicativeEkf {
+class MultiplicativeEkf : public ErrorState<ErrorForm::kMultiplicative> {
  public:
-  static constexpr ErrorForm kForm = ErrorForm::kMultiplicative;
-
-  /// Starts from a right-invariant covariance, moved to this form (`ConvertForm`).
-  void Start(const NavigationState& x, const ErrorCovariance& P_right_invariant);
-
   /// Propagates mean and covariance over one held sample, with the exact Jacobian of the step
   ///
   ///               θ         v     p         b_g              b_a
@@ -38,17 +31,9 @@ class MultiplicativeEkf {
   /// R⁺ = R̂ Exp(θ), v⁺ = v̂ + δv, p⁺ = p̂ + δp and b⁺ = b̂ + ζ for the increment K z.
   void Retract(const SlotVector& increment);
 
-  const NavigationState& x() const { return x_; }
-  const Covariance& P() const { return P_; }
-  Covariance& P() { return P_; }
-
   /// As RightInvariantEkf::BodyCovariance; here `w` turns orientation error into velocity error.
   ErrorCovariance BodyCovariance(const Eigen::Vector3d& r_IB, const Eigen::Vector3d& w,
                                  double gyro_variance) const;
-
- private:
-  NavigationState x_;
-  Covariance P_;
 };
 
 }  // namespace reckon::estimator

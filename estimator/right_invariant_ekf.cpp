@@ -13,13 +13,9 @@ void RightInvariantEkf::Propagate(const Increment& u, const Vector3d& g,
 
   // Gravity and velocity; the position first, it reads the old velocity.
   const Lane g_dt = ToLane(g * dt), half_g_dt2 = ToLane(0.5 * dt * dt * g);
-  P_.AddRow(
-      kPositionSlot, [dt](const LaneMatrix& v) { return dt * v; }, kVelocitySlot);
-  P_.AddRow(
-      kPositionSlot, [half_g_dt2](const LaneMatrix& theta) { return Cross(half_g_dt2, theta); },
-      kThetaSlot);
-  P_.AddRow(
-      kVelocitySlot, [g_dt](const LaneMatrix& theta) { return Cross(g_dt, theta); }, kThetaSlot);
+  P_.AddRow(kPositionSlot, dt, kVelocitySlot);
+  P_.AddRow(kPositionSlot, CrossProduct{half_g_dt2}, kThetaSlot);
+  P_.AddRow(kVelocitySlot, CrossProduct{g_dt}, kThetaSlot);
 
   // Biases, and the noise of the sample.
   BiasColumns J;
@@ -35,9 +31,7 @@ void RightInvariantEkf::Propagate(const Increment& u, const Vector3d& g,
   for (const Slot slot : P_.active()) {
     if (IsFoot(slot)) J.gyro[slot] = Cross(ToLane(x_.At(slot)), theta_g);
   }
-  P_.AddBiases(J, noise.gyro / (2.0 * dt), noise.accel / (2.0 * dt));
-  P_.AddDiagonal(kGyroBiasSlot, noise.gyro_walk * dt);
-  P_.AddDiagonal(kAccelBiasSlot, noise.accel_walk * dt);
+  P_.AddBiases(J, noise, dt);
 }
 
 void RightInvariantEkf::Retract(const SlotVector& increment) {
@@ -49,20 +43,15 @@ void RightInvariantEkf::Retract(const SlotVector& increment) {
     if (slot == kThetaSlot || slot >= kGyroBiasSlot) continue;
     x_.At(slot) = turn * x_.At(slot) + J * ToEigen(increment[slot]);
   }
-  x_.gyro_bias += ToEigen(increment[kGyroBiasSlot]);
-  x_.accel_bias += ToEigen(increment[kAccelBiasSlot]);
+  RetractBiases(increment);
 }
 
 ErrorCovariance RightInvariantEkf::BodyCovariance(const Vector3d& r_IB, const Vector3d& /*w*/,
                                                   double gyro_variance) const {
-  // θ and position keep their form; ξ_vB = ξ_v + R [r]× ζ_g, and the gyroscope's own noise.
-  const Matrix3d A = x_.R * Skew(r_IB);
-  const ErrorCovariance dense = P_.Dense();
-  ErrorCovariance P = dense;
-  P.middleRows<3>(kVelocity) += A * dense.middleRows<3>(kGyroBias);
-  P.middleCols<3>(kVelocity) += P.middleCols<3>(kGyroBias).eval() * A.transpose();
-  P.block<3, 3>(kVelocity, kVelocity) += gyro_variance * A * A.transpose();
-  return P;
+  // θ and the position keep their form.
+  Covariance P = P_;
+  AddRateOverLeverArm(P, x_.R, r_IB, gyro_variance);
+  return P.Dense();
 }
 
 }  // namespace reckon::estimator

@@ -2,10 +2,8 @@
 
 #include <Eigen/Core>
 
-#include "reckon/estimator/estimate.h"
-#include "reckon/estimator/kalman.h"
+#include "reckon/estimator/error_state.h"
 #include "reckon/estimator/linearisation.h"
-#include "reckon/estimator/navigation_state.h"
 
 namespace reckon::estimator {
 
@@ -13,15 +11,8 @@ namespace reckon::estimator {
 ///
 /// A covariance is never moved to another state: after a correction it stays in the frame of the
 /// prior estimate. Nothing here allocates.
-class RightInvariantEkf {
+class RightInvariantEkf : public ErrorState<ErrorForm::kRightInvariant> {
  public:
-  static constexpr ErrorForm kForm = ErrorForm::kRightInvariant;
-
-  void Start(const NavigationState& x, const ErrorCovariance& P_right_invariant) {
-    x_ = x;
-    P_.Start(P_right_invariant);
-  }
-
   /// Propagates mean and covariance over one held sample, with the exact Φ of the error
   ///
   ///            θ        v     p     b_g    b_a
@@ -44,18 +35,10 @@ class RightInvariantEkf {
   /// X⁺ = exp(ξ) X̂ and b⁺ = b̂ + ζ for the increment K z.
   void Retract(const SlotVector& increment);
 
-  const NavigationState& x() const { return x_; }
-  const Covariance& P() const { return P_; }
-  Covariance& P() { return P_; }
-
   /// The covariance of the body's error: B's origin lies at `r_IB` in I, and v_B = v + R(ω × r_IB)
   /// with a gyroscope sample of variance `gyro_variance`.
   ErrorCovariance BodyCovariance(const Eigen::Vector3d& r_IB, const Eigen::Vector3d& w,
                                  double gyro_variance) const;
-
- private:
-  NavigationState x_;
-  Covariance P_;
 };
 
 }  // namespace reckon::estimator

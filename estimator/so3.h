@@ -21,7 +21,7 @@ class RotationSeries {
   /// Γ_m(φ), m = 0 … 3.
   Eigen::Matrix3d Gamma(int m) const;
 
-  /// ∂(Γ_m(φ) a)/∂φ, m = 1, 2.
+  /// ∂(Γ_m(φ) a)/∂φ, m = 1, 2: a 3×3 matrix.
   Eigen::Matrix3d GammaDerivative(int m, const Eigen::Vector3d& a) const;
 
   /// J⁻¹(φ) of the left Jacobian J = Γ1.
@@ -51,12 +51,6 @@ inline Eigen::Matrix3d LeftJacobian(const Eigen::Vector3d& phi) { return Gamma(1
 /// J⁻¹(φ) for |φ| < 2π.
 inline Eigen::Matrix3d LeftJacobianInverse(const Eigen::Vector3d& phi) {
   return RotationSeries(phi).LeftJacobianInverse();
-}
-
-/// ∂(Γ_m(φ) a)/∂φ for m = 1, 2: a 3×3 matrix. Same accuracy as `Gamma`.
-inline Eigen::Matrix3d GammaDerivative(int m, const Eigen::Vector3d& phi,
-                                       const Eigen::Vector3d& a) {
-  return RotationSeries(phi).GammaDerivative(m, a);
 }
 
 }  // namespace reckon::estimator

@@ -119,11 +119,7 @@ void Bench::EndInstant() {
     if (recorder_ != nullptr) recorder_->Add(i, *belief);
     timer.Lap(recording_s_);
     if (truth_ == nullptr) continue;
-    if (const auto truth = truth_->At(belief->t_ns)) {
-      tested.track.Add(*truth, *belief);
-    } else {
-      tested.track.AddUnpaired();
-    }
+    truth_->Pair(*belief, tested.track);
     timer.Lap(scoring_s_);
   }
 }

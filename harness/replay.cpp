@@ -28,11 +28,7 @@ void PairSamples(const ground_truth::RecordingReader& reader, std::size_t estima
       newest = truths.Next();
       if (newest) history.Add(*newest);
     }
-    if (const auto truth = history.At(estimate->t_ns)) {
-      track.Add(*truth, *estimate);
-    } else {
-      track.AddUnpaired();
-    }
+    history.Pair(*estimate, track);
   }
 }
 

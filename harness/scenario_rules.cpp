@@ -1,5 +1,7 @@
 #include "reckon/harness/scenario_rules.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -24,13 +26,6 @@ Names KeysOf(const std::map<std::string, T>& map) {
 
 bool Holds(const Names& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
-}
-
-/// "a, b, c"
-std::string Joined(const Names& names) {
-  std::string joined;
-  for (const std::string& name : names) joined += (joined.empty() ? "" : ", ") + name;
-  return joined;
 }
 
 /// The rules, with what all of them need.
@@ -195,7 +190,7 @@ class Rules {
         const std::string& joint = (*side)[i];
         RequireOneOf(joint, joints, place, "joint in the URDF called");
         Require(!Holds(joints, joint) || Holds(wheels, joint), place,
-                "a continuous joint of " + base_link + " (" + Joined(wheels) + ")");
+                fmt::format("a continuous joint of {} ({})", base_link, fmt::join(wheels, ", ")));
         Require(seen.insert(joint).second, place, "each joint once");
       }
       Require(!side->empty(), path, "at least one joint");
@@ -223,7 +218,8 @@ class Rules {
     for (const auto& choice : Choices<sim::FaultChannels>()) {
       if (sim::HasChannels(sensor->second.errors, choice.value)) names.push_back(choice.name);
     }
-    Require(false, path, "channels of the sensor '" + fault.sensor + "' (" + Joined(names) + ")");
+    Require(false, path,
+            fmt::format("channels of the sensor '{}' ({})", fault.sensor, fmt::join(names, ", ")));
   }
 
   void CheckEstimator(const std::string& name, const EstimatorConfig& estimator) const {

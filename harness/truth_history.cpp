@@ -31,4 +31,12 @@ std::optional<Truth> TruthHistory::At(models::TimeNs t_ns) const {
   return Interpolate(Entry(low), Entry(low + 1), t_ns);
 }
 
+void TruthHistory::Pair(const estimator::Estimate& estimate, ground_truth::Track& track) const {
+  if (const auto truth = At(estimate.t_ns)) {
+    track.Add(*truth, estimate);
+  } else {
+    track.AddUnpaired();
+  }
+}
+
 }  // namespace reckon::harness

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "reckon/ground_truth/track.h"
 #include "reckon/ground_truth/truth.h"
 
 namespace reckon::harness {
@@ -22,6 +23,9 @@ class TruthHistory {
   /// velocity and rates (a misreported stamp need not lie on the physics grid). Nothing for an
   /// instant outside the ring.
   std::optional<ground_truth::Truth> At(models::TimeNs t_ns) const;
+
+  /// Adds `estimate` to `track` beside the truth at its stamp, or as one that has none.
+  void Pair(const estimator::Estimate& estimate, ground_truth::Track& track) const;
 
  private:
   const ground_truth::Truth& Entry(std::size_t i) const { return ring_[i % ring_.size()]; }

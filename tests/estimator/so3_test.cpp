@@ -50,8 +50,8 @@ TEST(Gamma, IsContinuousWhereTheSeriesHandsOver) {
     }
     const Vector3d a = draws.Vector(10.0);
     for (int m = 1; m <= 2; ++m) {
-      const Matrix3d below = GammaDerivative(m, std::nextafter(0.5, 0.0) * axis, a);
-      const Matrix3d above = GammaDerivative(m, std::nextafter(0.5, 1.0) * axis, a);
+      const Matrix3d below = RotationSeries(std::nextafter(0.5, 0.0) * axis).GammaDerivative(m, a);
+      const Matrix3d above = RotationSeries(std::nextafter(0.5, 1.0) * axis).GammaDerivative(m, a);
       EXPECT_LT((below - above).cwiseAbs().maxCoeff(), 1e-12 * a.norm()) << "m = " << m;
     }
   }
@@ -71,7 +71,7 @@ TEST(Gamma, DerivativeIsTheNumericalOne) {
         numerical.col(i) = (up - down) / 2e-5L;
       }
       // The differences' own error is h² ‖a‖ / 6.
-      EXPECT_LT(Distance(GammaDerivative(m, phi, a), numerical), 1e-10 * a.norm())
+      EXPECT_LT(Distance(RotationSeries(phi).GammaDerivative(m, a), numerical), 1e-10 * a.norm())
           << "m = " << m << ", angle " << angle;
     }
   }
