@@ -42,6 +42,8 @@ std::string_view Name(Refusal refusal) {
       return "invalid";
     case Refusal::kUnused:
       return "unused";
+    case Refusal::kDuplicate:
+      return "duplicate";
   }
   return "unknown";
 }

@@ -32,6 +32,7 @@ enum class Refusal : std::uint8_t {
   kGap,         ///< its interval is too long to integrate
   kInvalid,     ///< malformed: wrong size, non-positive interval, indefinite covariance
   kUnused,      ///< this estimator has no use for this sensor
+  kDuplicate,   ///< the sensor has sent a sample of this stamp before
 };
 
 std::string_view Name(Decision decision);

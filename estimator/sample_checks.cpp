@@ -9,6 +9,8 @@ namespace {
 constexpr double kLargestRate = 1e4;      ///< rad/s, IMU and encoders
 constexpr double kLargestForce = 1e5;     ///< m/s²
 constexpr double kLargestVelocity = 1e5;  ///< m/s
+constexpr double kLargestDistance = 1e7;  ///< m
+constexpr double kLargestSigma = 1e6;     ///< m or rad
 constexpr models::TimeNs kLongestInterval = models::kNsPerSecond;
 
 template <class Vector>
@@ -45,6 +47,33 @@ Refusal Check(const models::BodyVelocitySample& sample) {
   const Eigen::LLT<Eigen::Matrix3d> factor(sample.covariance);
   const bool symmetric = sample.covariance.isApprox(sample.covariance.transpose(), 1e-9);
   return factor.info() == Eigen::Success && symmetric ? Refusal::kNone : Refusal::kInvalid;
+}
+
+Refusal Check(const models::DepthSample& sample) {
+  return Bounded(Eigen::Matrix<double, 1, 1>(sample.depth_m), kLargestDistance);
+}
+
+/// Standard deviations: positive, and not beyond all meaning.
+Refusal Sigmas(const Eigen::Vector3d& sigma) {
+  if (!sigma.allFinite()) return Refusal::kNotFinite;
+  const bool good = sigma.minCoeff() > 0.0 && sigma.maxCoeff() <= kLargestSigma;
+  return good ? Refusal::kNone : Refusal::kInvalid;
+}
+
+Refusal Check(const models::PoseSample& sample) {
+  const Refusal position =
+      WorseOf(Bounded(sample.X_WS.p, kLargestDistance), Sigmas(sample.position_sigma_m));
+  if (position != Refusal::kNone || !sample.has_orientation) return position;
+  if (!sample.X_WS.R.allFinite()) return Refusal::kNotFinite;
+  const bool rotation = sample.X_WS.R.isUnitary(1e-6) && sample.X_WS.R.determinant() > 0.0;
+  return rotation ? Sigmas(sample.orientation_sigma_rad) : Refusal::kInvalid;
+}
+
+Refusal Check(const models::ContactSample& sample) {
+  if (!sample.probability.allFinite()) return Refusal::kNotFinite;
+  const bool good = sample.probability.size() > 0 && sample.probability.minCoeff() >= 0.0 &&
+                    sample.probability.maxCoeff() <= 1.0;
+  return good ? Refusal::kNone : Refusal::kInvalid;
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 namespace reckon::estimator {
 namespace {
 
-constexpr std::array<NoiseField, 8> kFields{{
+constexpr std::array<NoiseField, 17> kFields{{
     {"gyro_noise_density_rad_per_s_sqrt_hz", &Noise::gyro_noise_density_rad_per_s_sqrt_hz},
     {"accel_noise_density_m_per_s2_sqrt_hz", &Noise::accel_noise_density_m_per_s2_sqrt_hz},
     {"gyro_bias_walk_rad_per_s2_sqrt_hz", &Noise::gyro_bias_walk_rad_per_s2_sqrt_hz},
@@ -14,6 +14,15 @@ constexpr std::array<NoiseField, 8> kFields{{
     {"wheel_lateral_m_per_s", &Noise::wheel_lateral_m_per_s},
     {"wheel_vertical_m_per_s", &Noise::wheel_vertical_m_per_s},
     {"body_velocity_scale", &Noise::body_velocity_scale},
+    {"pose_scale", &Noise::pose_scale},
+    {"depth_m", &Noise::depth_m},
+    {"joint_angle_rad", &Noise::joint_angle_rad},
+    {"foot_position_m", &Noise::foot_position_m},
+    {"foot_slip_m_per_s_sqrt_hz", &Noise::foot_slip_m_per_s_sqrt_hz},
+    {"wheel_yaw_rate_rad_per_s", &Noise::wheel_yaw_rate_rad_per_s},
+    {"standstill_m_per_s", &Noise::standstill_m_per_s},
+    {"standstill_rad_per_s", &Noise::standstill_rad_per_s},
+    {"floor_height_m", &Noise::floor_height_m},
 }};
 
 }  // namespace

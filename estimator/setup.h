@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "reckon/estimator/estimate.h"
@@ -20,6 +21,15 @@ struct Noise {
   double wheel_lateral_m_per_s = 0.0;   ///< of the nonholonomic row v_y = 0
   double wheel_vertical_m_per_s = 0.0;  ///< of the nonholonomic row v_z = 0
   double body_velocity_scale = 1.0;     ///< scales the standard deviation that the sensor delivers
+  double pose_scale = 1.0;              ///< likewise
+  double depth_m = 0.0;                 ///< white, per depth sample
+  double joint_angle_rad = 0.0;         ///< white, per sample and joint of a leg
+  double foot_position_m = 0.0;  ///< of what a leg's kinematics leave out, per sample and axis
+  double foot_slip_m_per_s_sqrt_hz = 0.0;  ///< white velocity of a standing foot
+  double wheel_yaw_rate_rad_per_s = 0.0;   ///< of the wheels' yaw rate, per encoder sample
+  double standstill_m_per_s = 0.0;         ///< what may be left of the velocity at standstill
+  double standstill_rad_per_s = 0.0;       ///< and of the angular rate
+  double floor_height_m = 0.0;             ///< of a flat floor, white, per use
 };
 
 /// One entry of the flat vector: its stable name (with the unit) and where it lives.
@@ -53,6 +63,7 @@ struct PriorSigma {
 enum class InitialisationKind : std::uint8_t {
   kPrior,   ///< from the prior alone
   kStatic,  ///< roll, pitch and gyroscope bias from a resting IMU; yaw and position from the prior
+  kPose,    ///< orientation and position from the first pose sample; the rest from the prior
 };
 
 struct Initialisation {
@@ -60,10 +71,32 @@ struct Initialisation {
   double static_duration_s = 1.0;  ///< of rest that is averaged
 };
 
+/// What a filter makes of a robot that stands still: zero velocity and zero angular rate.
+struct Standstill {
+  bool use = false;
+  double window_s = 0.25;  ///< the IMU and wheels must be quiet this long
+};
+
+/// A floor of one known height under all that stands on it: feet, or else the body's origin.
+struct FlatFloor {
+  bool use = false;
+  double height_m = 0.0;  ///< z in W of a standing foot, or of the body's origin
+};
+
+/// The stage that refines the angular rate before it moves the filter.
+struct GyroFilter {
+  std::string source;  ///< the sensor beside the IMU: another IMU, or the wheels; empty: no stage
+};
+
 /// Everything that a filter is told before its first measurement: beliefs only.
 struct Setup {
   models::Suite suite;
   ErrorForm error = ErrorForm::kRightInvariant;  ///< of the invariant filters
+  int iterations = 4;                            ///< of the iterated filter, at most
+  double history_s = 0.5;  ///< how late a measurement can be and still be used at its own time
+  Standstill standstill;
+  FlatFloor floor;
+  GyroFilter gyro_filter;
   Noise noise;
   Gate gate;
   Initialisation initialisation;

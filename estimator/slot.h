@@ -2,10 +2,11 @@
 
 #include <cstdint>
 
+#include "reckon/models/contact_sample.h"
+
 namespace reckon::estimator {
 
-/// The most feet that a state can hold.
-inline constexpr int kMaxFeet = 4;
+using models::kMaxFeet;
 
 /// Places of three error coordinates each, in the order of the error: θ, v, p, d₁ … d_L, b_g, b_a.
 enum Slot : std::uint8_t {

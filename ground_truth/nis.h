@@ -24,7 +24,7 @@ struct NisStatistics {
 NisStatistics NisOf(std::span<const TrackCorrection> corrections, models::SensorId sensor);
 
 inline constexpr std::size_t kDecisions = 5;
-inline constexpr std::size_t kRefusals = 10;
+inline constexpr std::size_t kRefusals = 11;
 
 /// What became of one sensor's measurements.
 struct DecisionCounts {

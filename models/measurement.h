@@ -4,8 +4,11 @@
 #include <variant>
 
 #include "reckon/models/body_velocity_sample.h"
+#include "reckon/models/contact_sample.h"
+#include "reckon/models/depth_sample.h"
 #include "reckon/models/encoder_sample.h"
 #include "reckon/models/imu_sample.h"
+#include "reckon/models/pose_sample.h"
 #include "reckon/models/time.h"
 
 namespace reckon::models {
@@ -15,7 +18,8 @@ using SensorId = std::uint16_t;
 
 /// Everything that a robot's hardware can send. The variant is closed: truth is not one of its
 /// types.
-using Sample = std::variant<ImuSample, EncoderSample, BodyVelocitySample>;
+using Sample = std::variant<ImuSample, EncoderSample, BodyVelocitySample, DepthSample, PoseSample,
+                            ContactSample>;
 
 /// One message of one sensor: the only thing that an estimator is ever given.
 struct Measurement {

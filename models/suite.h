@@ -5,13 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "reckon/models/leg_kinematics.h"
 #include "reckon/models/measurement.h"
 #include "reckon/models/pose.h"
 
 namespace reckon::models {
 
 /// What a sensor sends: the alternatives of `Sample`, by name and in the same order.
-enum class SensorKind : std::uint8_t { kImu, kEncoders, kBodyVelocity };
+enum class SensorKind : std::uint8_t { kImu, kEncoders, kBodyVelocity, kDepth, kPose, kContacts };
 
 /// A sensor as the estimator believes it to be: what it is and where it sits on the nominal robot.
 struct MountedSensor {
@@ -34,10 +35,18 @@ struct WheelDrive {
   Pose X_BS;
 };
 
+/// The believed legs of a walking robot; entry i of a contact sample speaks of leg i.
+struct LegSet {
+  std::string encoders;             ///< the sensor that reports the joints
+  std::string contacts;             ///< the sensor that says which feet stand
+  std::vector<LegKinematics> legs;  ///< at most kMaxFeet
+};
+
 /// The nominal robot's sensors: a measurement's `sensor` is an index into `sensors`.
 struct Suite {
   std::vector<MountedSensor> sensors;
   std::optional<WheelDrive> wheels;
+  std::optional<LegSet> legs;
 
   /// The id of the sensor called `name`; nothing if there is none.
   std::optional<SensorId> Find(const std::string& name) const;
