@@ -2,9 +2,9 @@
 
 #include <array>
 #include <cassert>
-#include <cstddef>
 #include <span>
 
+#include "reckon/estimator/active_slots.h"
 #include "reckon/estimator/estimate.h"
 #include "reckon/estimator/lane_matrix.h"
 #include "reckon/estimator/navigation_state.h"
@@ -26,13 +26,14 @@ class Covariance {
   /// θ, v, p and the biases from a dense matrix of 15 coordinates; no feet.
   void Start(const ErrorCovariance& P);
 
-  /// The active slots, in order.
-  std::span<const Slot> active() const { return {active_.data(), size_}; }
-  bool IsActive(Slot slot) const;
+  /// The active slots, in order, and as what loops go over.
+  std::span<const Slot> active() const { return slots_.list(); }
+  bool IsActive(Slot slot) const { return slots_.Has(slot); }
+  const ActiveSlots& slots() const { return slots_; }
 
   /// The block of a pair in its kept order, i ≤ j.
-  LaneMatrix& operator()(Slot i, Slot j) { return assert(i <= j), blocks_[i][j]; }
-  const LaneMatrix& operator()(Slot i, Slot j) const { return assert(i <= j), blocks_[i][j]; }
+  LaneMatrix& operator()(Slot i, Slot j) { return Check(i, j), blocks_[i][j]; }
+  const LaneMatrix& operator()(Slot i, Slot j) const { return Check(i, j), blocks_[i][j]; }
 
   /// The block of any pair.
   LaneMatrix Get(Slot i, Slot j) const {
@@ -62,26 +63,22 @@ class Covariance {
   ErrorCovariance Dense() const;
 
  private:
-  /// Adds X to the block (i, k), i ≠ k.
-  void Add(Slot i, Slot k, const LaneMatrix& X) {
-    if (i < k) {
-      (*this)(i, k) += X;
-    } else {
-      (*this)(k, i) += Transposed(X);
-    }
+  static void Check([[maybe_unused]] Slot i, Slot j) {
+    assert(i <= j && j < kSlots);
+    if (j >= kSlots) __builtin_unreachable();  // so that no loop is compiled for what cannot be
   }
 
   LaneMatrix blocks_[kSlots][kSlots];  // NOLINT(modernize-avoid-c-arrays): of fixed size in both
-  std::array<Slot, kSlots> active_;
-  std::size_t size_ = 0;
+  ActiveSlots slots_;
 };
 
 template <class Factor>
-void Covariance::AddRow(Slot i, const Factor& M, Slot j) {
+[[gnu::always_inline]] inline void Covariance::AddRow(Slot i, const Factor& M, Slot j) {
   const LaneMatrix before = M * Get(j, i);
-  for (const Slot k : active()) {
-    if (k != i) Add(i, k, M * Get(j, k));
-  }
+  slots_.ForEach([&](Slot k) {
+    if (k < i) (*this)(k, i) += TimesTransposed(Get(k, j), M);
+    if (k > i) (*this)(i, k) += M * Get(j, k);
+  });
   (*this)(i, i) += M * Get(j, i) + Transposed(before);
 }
 

@@ -23,14 +23,15 @@ class ErrorState {
   }
 
   const NavigationState& x() const { return x_; }
+  NavigationState& x() { return x_; }
   const Covariance& P() const { return P_; }
   Covariance& P() { return P_; }
 
  protected:
   /// b⁺ = b̂ + ζ.
   void RetractBiases(const SlotVector& increment) {
-    x_.gyro_bias += ToEigen(increment[kGyroBiasSlot]);
-    x_.accel_bias += ToEigen(increment[kAccelBiasSlot]);
+    x_.gyro_bias = ToEigen(ToLane(x_.gyro_bias) + increment[kGyroBiasSlot]);
+    x_.accel_bias = ToEigen(ToLane(x_.accel_bias) + increment[kAccelBiasSlot]);
   }
 
   NavigationState x_;

@@ -1,97 +1,83 @@
 #include "reckon/estimator/kalman.h"
 
-#include <Eigen/Cholesky>
 #include <limits>
 
 namespace reckon::estimator {
 namespace {
 
-double Dot(Lane a, Lane b) {
-  const Lane product = a * b;
-  return product[0] + product[1] + product[2];
-}
-
-/// Row i of P Hᵀ.
+/// strips[i] += (P Hᵀ)_i for every slot i.
 template <int kRows>
-Strip<kRows> Column(const Covariance& P, Slot i, const Linearisation<kRows>& m) {
-  using Kind = typename Term<kRows>::Kind;
-  Strip<kRows> sum{};
+void AddColumns(std::array<Strip<kRows>, kSlots>& strips, const Covariance& P,
+                const Linearisation<kRows>& m) {
   for (const Term<kRows>& term : m.terms()) {
-    const LaneMatrix block = P.Get(i, term.slot);
-    if constexpr (kRows == 3) {
-      if (term.kind == Kind::kPlus) sum += block;
-      if (term.kind == Kind::kMinus) sum -= block;
-      if (term.kind == Kind::kBlock) sum += block * term.H_transposed;
-    } else {
-      sum += block * term.H_transposed;
+    const Slot s = term.slot;
+    switch (term.kind) {
+      case TermKind::kBlock: {
+        const Strip<kRows> H = term.H;
+        P.slots().ForEach([&](Slot i) { strips[i] += TimesTransposed(P.Get(i, s), H); });
+        break;
+      }
+      case TermKind::kPlus:
+        if constexpr (kRows == 3) P.slots().ForEach([&](Slot i) { strips[i] += P.Get(i, s); });
+        break;
+      case TermKind::kMinus:
+        if constexpr (kRows == 3) P.slots().ForEach([&](Slot i) { strips[i] -= P.Get(i, s); });
+        break;
     }
   }
-  return sum;
 }
 
-// What stands beside a strip in a product: a matrix and a vector, or for one row two numbers.
-LaneMatrix Factor(const Eigen::Matrix3d& M) { return ToLanes(M); }
-Lane Factor(const Eigen::Vector3d& v) { return ToLane(v); }
-double Factor(const Eigen::Matrix<double, 1, 1>& m) { return m(0); }
-Lane operator*(Lane strip, double factor) { return factor * strip; }
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
+
+/// S⁻¹ of a symmetric S by its cofactors; not a number where S is not positive definite.
+LaneMatrix Inverse(const LaneMatrix& S) {
+  const auto [a, b, c] = S.column;
+  const LaneMatrix adjugate{{Cross(b, c), Cross(c, a), Cross(a, b)}};
+  const double determinant = Dot(a, adjugate.column[0]);
+  const bool positive = S(0, 0) > 0.0 && adjugate(2, 2) > 0.0 && determinant > 0.0;
+  return (positive ? 1.0 / determinant : kNotANumber) * adjugate;
+}
+double Inverse(double S) { return S > 0.0 ? 1.0 / S : kNotANumber; }
 
 }  // namespace
 
 template <int kRows>
-KalmanCorrection<kRows>::KalmanCorrection(const Covariance& P, const Linearisation<kRows>& m)
-    : m_(m), active_(P.active()), N_(m.N) {
-  for (const Slot i : active_) C_[i] = Column(P, i, m);
+[[gnu::flatten]] KalmanCorrection<kRows>::KalmanCorrection(const Covariance& P,
+                                                           const Linearisation<kRows>& m)
+    : m_(m), slots_(P.slots()), N_(ToSquare(m.N)), z_(ToRow(m.z)) {
+  slots_.ForEach([this](Slot i) { C_[i] = Strip<kRows>::Zero(); });
+  AddColumns(C_, P, m);
   S_ = N_;
-  for (const Term<kRows>& term : m.terms()) {
-    if constexpr (kRows == 3) {
-      S_ += Dense(term) * ToEigen(C_[term.slot]);
-    } else {
-      S_(0) += Dot(term.H_transposed, C_[term.slot]);
-    }
-  }
-  S_ = 0.5 * (S_ + S_.transpose()).eval();
-  Solve();
-}
-
-template <int kRows>
-void KalmanCorrection<kRows>::Solve() {
-  const Eigen::LLT<Matrix> llt(S_);
-  S_inverse_ = llt.solve(Matrix::Identity());
-  nis_ = llt.info() == Eigen::Success ? m_.z.dot(S_inverse_ * m_.z)
-                                      : std::numeric_limits<double>::quiet_NaN();
+  for (const Term<kRows>& term : m.terms()) S_ += Times(term, C_[term.slot]);
+  S_ = Symmetric(S_);
+  S_inverse_ = Inverse(S_);
+  nis_ = Dot(z_, S_inverse_ * z_);
 }
 
 template <int kRows>
 void KalmanCorrection<kRows>::Inflate(double target) {
   const double factor = nis_ / target;
   N_ += (factor - 1.0) * S_;
-  S_inverse_ /= factor;
+  S_inverse_ = (1.0 / factor) * S_inverse_;
 }
 
 template <int kRows>
-SlotVector KalmanCorrection<kRows>::Gain() const {
+[[gnu::flatten]] SlotVector KalmanCorrection<kRows>::Gain() const {
   SlotVector increment;
-  const auto weighted = Factor(Vector(S_inverse_ * m_.z));
-  for (const Slot i : active_) increment[i] = C_[i] * weighted;
+  const Row<kRows> weighted = S_inverse_ * z_;
+  slots_.ForEach([&](Slot i) { increment[i] = C_[i] * weighted; });
   return increment;
 }
 
 template <int kRows>
-void KalmanCorrection<kRows>::UpdateCovariance(Covariance& P) const {
-  const auto S_inverse = Factor(S_inverse_);
-  const auto N = Factor(N_);
+[[gnu::flatten]] void KalmanCorrection<kRows>::UpdateCovariance(Covariance& P) const {
   std::array<Strip<kRows>, kSlots> K, T;
-  for (const Slot i : active_) K[i] = C_[i] * S_inverse;
-  for (std::size_t a = 0; a < active_.size(); ++a) {
-    const Slot i = active_[a];
-    for (const Slot j : active_.subspan(a)) SubtractTimesTransposed(P(i, j), K[i], C_[j]);
-  }
-  for (const Slot i : active_) T[i] = Column(P, i, m_) - K[i] * N;
-  for (std::size_t a = 0; a < active_.size(); ++a) {
-    const Slot i = active_[a];
-    for (const Slot j : active_.subspan(a)) SubtractTimesTransposed(P(i, j), T[i], K[j]);
-    P(i, i) = 0.5 * (P(i, i) + Transposed(P(i, i)));
-  }
+  slots_.ForEach([&](Slot i) { K[i] = C_[i] * S_inverse_; });
+  slots_.ForEachPair([&](Slot i, Slot j) { SubtractTimesTransposed(P(i, j), C_[i], K[j]); });
+  slots_.ForEach([&](Slot i) { T[i] = -(K[i] * N_); });
+  AddColumns(T, P, m_);
+  slots_.ForEachPair([&](Slot i, Slot j) { SubtractTimesTransposed(P(i, j), T[i], K[j]); });
+  slots_.ForEach([&](Slot i) { P(i, i) = Symmetric(P(i, i)); });
 }
 
 template class KalmanCorrection<1>;

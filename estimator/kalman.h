@@ -2,22 +2,17 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <span>
 
 #include "reckon/estimator/covariance.h"
 #include "reckon/estimator/linearisation.h"
 
 namespace reckon::estimator {
 
-/// An increment of the error by slot; only active slots count.
-using SlotVector = std::array<Lane, kSlots>;
-
 /// The part of a correction that no error form changes: what is expected of the innovation, and the
 /// exact covariance update. Nothing allocates.
 template <int kRows>
 class KalmanCorrection {
  public:
-  using Vector = typename Linearisation<kRows>::Vector;
   using Matrix = typename Linearisation<kRows>::Matrix;
 
   /// C = P Hᵀ, S = H C + N and NIS = zᵀ S⁻¹ z of a measurement z = −H ξ + n. Both must outlive it.
@@ -25,7 +20,7 @@ class KalmanCorrection {
 
   /// Not a number if S is not positive definite.
   double nis() const { return nis_; }
-  const Matrix& S() const { return S_; }
+  Matrix S() const { return ToEigen(S_); }
 
   /// Multiplies the measurement's noise so that NIS falls to `target`; exact for one row, and
   /// conservative for more (S grows as a whole).
@@ -34,19 +29,18 @@ class KalmanCorrection {
   /// K z with K = C S⁻¹.
   SlotVector Gain() const;
 
-  /// P⁺ in the structured Joseph form: with M = P − K Cᵀ, P⁺ = M − (M Hᵀ − K N) Kᵀ. Equal to
+  /// P⁺ in the structured Joseph form: with M = P − C Kᵀ, P⁺ = M − (M Hᵀ − K N) Kᵀ. Equal to
   /// (I − K H) P (I − K H)ᵀ + K N Kᵀ, whose round-off it keeps, at a third of the cost. `P` must be
   /// what the correction was made from.
   void UpdateCovariance(Covariance& P) const;
 
  private:
-  void Solve();
-
   const Linearisation<kRows>& m_;
-  std::span<const Slot> active_;
+  const ActiveSlots& slots_;
   std::array<Strip<kRows>, kSlots> C_;
-  Matrix S_, S_inverse_, N_;
-  double nis_ = 0.0;
+  Square<kRows> N_, S_, S_inverse_;
+  Row<kRows> z_;
+  double nis_;
 };
 
 extern template class KalmanCorrection<1>;

@@ -1,5 +1,11 @@
 #pragma once
 
+#if defined(__AVX__)
+#include <immintrin.h>
+#else
+#include <emmintrin.h>
+#endif
+
 namespace reckon::estimator {
 
 /// Four doubles that move together: a 3-vector and a padding number that nobody reads. One AVX
@@ -9,46 +15,78 @@ namespace reckon::estimator {
 class Lane {
  public:
   Lane() = default;
-  Lane(double x, double y, double z) : Lane(x, y, z, 0.0) {}
-  static Lane All(double s) { return {s, s, s, s}; }
+  static Lane Zero() { return All(0.0); }
 
 #if defined(__AVX__)
+  Lane(double x, double y, double z) : v_{x, y, z, z} {}
+  static Lane All(double s) { return Lane(Four{s, s, s, s}); }
+  /// Of three numbers that lie in a row.
+  static Lane Load(const double* xyz) {
+    return Lane(_mm256_insertf128_pd(_mm256_broadcast_sd(xyz + 2), _mm_loadu_pd(xyz), 0));
+  }
+  void Store(double* xyz) const {
+    _mm_storeu_pd(xyz, _mm256_castpd256_pd128(v_));
+    _mm_storel_pd(xyz + 2, _mm256_extractf128_pd(v_, 1));
+  }
+
   double operator[](int i) const { return v_[i]; }
 
   Lane& operator+=(Lane b) { return v_ += b.v_, *this; }
   Lane& operator-=(Lane b) { return v_ -= b.v_, *this; }
   Lane& operator*=(Lane b) { return v_ *= b.v_, *this; }
+  Lane operator-() const { return Lane(-v_); }
+
+  /// (y, z, x).
+  Lane Rotated() const { return Lane(_mm256_permute4x64_pd(v_, 0b11'00'10'01)); }
+
+  /// The columns of a 3×3 matrix become its rows.
+  static void Transpose(Lane& a, Lane& b, Lane& c) {
+    const Four ab = _mm256_unpacklo_pd(a.v_, b.v_);  // (a₀ b₀ a₂ b₂)
+    const Four middle = _mm256_unpackhi_pd(a.v_, b.v_);
+    const Four swapped = _mm256_permute_pd(c.v_, 0b0101);
+    a.v_ = _mm256_insertf128_pd(ab, _mm256_castpd256_pd128(c.v_), 1);
+    b.v_ = _mm256_insertf128_pd(middle, _mm256_castpd256_pd128(swapped), 1);
+    c.v_ = _mm256_permute2f128_pd(ab, c.v_, 0x31);
+  }
 
  private:
-  using Four = double __attribute__((vector_size(32)));
-  Lane(double x, double y, double z, double w) : v_{x, y, z, w} {}
+  using Four = __m256d;
+  explicit Lane(Four v) : v_(v) {}
   Four v_;
-
- public:
-  /// (y, z, x).
-  Lane Rotated() const {
-    Lane r;
-#if defined(__clang__)
-    r.v_ = __builtin_shufflevector(v_, v_, 1, 2, 0, 3);
 #else
-    using Places = long long __attribute__((vector_size(32)));
-    r.v_ = __builtin_shuffle(v_, Places{1, 2, 0, 3});
-#endif
-    return r;
+  Lane(double x, double y, double z) : low_{x, y}, high_{z, z} {}
+  static Lane All(double s) { return Lane(Two{s, s}, Two{s, s}); }
+  /// Of three numbers that lie in a row.
+  static Lane Load(const double* xyz) { return Lane(_mm_loadu_pd(xyz), Two{xyz[2], xyz[2]}); }
+  void Store(double* xyz) const {
+    _mm_storeu_pd(xyz, low_);
+    _mm_storel_pd(xyz + 2, high_);
   }
-#else
+
   double operator[](int i) const { return i < 2 ? low_[i] : high_[i - 2]; }
 
   Lane& operator+=(Lane b) { return low_ += b.low_, high_ += b.high_, *this; }
   Lane& operator-=(Lane b) { return low_ -= b.low_, high_ -= b.high_, *this; }
   Lane& operator*=(Lane b) { return low_ *= b.low_, high_ *= b.high_, *this; }
+  Lane operator-() const { return Lane(-low_, -high_); }
 
   /// (y, z, x).
-  Lane Rotated() const { return {low_[1], high_[0], low_[0], 0.0}; }
+  Lane Rotated() const {
+    return Lane(_mm_shuffle_pd(low_, high_, 0b01), _mm_unpacklo_pd(low_, high_));
+  }
+
+  /// The columns of a 3×3 matrix become its rows.
+  static void Transpose(Lane& a, Lane& b, Lane& c) {
+    const Two last = c.low_;
+    c = Lane(_mm_unpacklo_pd(a.high_, b.high_), c.high_);
+    const Two first = _mm_unpacklo_pd(a.low_, b.low_);
+    b = Lane(_mm_unpackhi_pd(a.low_, b.low_), _mm_unpackhi_pd(last, last));
+    a = Lane(first, last);
+  }
 
  private:
-  using Two = double __attribute__((vector_size(16)));
-  Lane(double x, double y, double z, double w) : low_{x, y}, high_{z, w} {}
+  using Two = __m128d;
+  Lane(Two low, Two high) : low_(low), high_(high) {}
   Two low_, high_;
 #endif
 };
@@ -57,6 +95,12 @@ inline Lane operator+(Lane a, Lane b) { return a += b; }
 inline Lane operator-(Lane a, Lane b) { return a -= b; }
 inline Lane operator*(Lane a, Lane b) { return a *= b; }
 inline Lane operator*(double s, Lane a) { return a *= Lane::All(s); }
+
+/// a · b.
+inline double Dot(Lane a, Lane b) {
+  const Lane product = a * b;
+  return product[0] + product[1] + product[2];
+}
 
 /// a × b.
 inline Lane Cross(Lane a, Lane b) { return (a * b.Rotated() - a.Rotated() * b).Rotated(); }

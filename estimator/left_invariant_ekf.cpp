@@ -5,39 +5,37 @@ namespace reckon::estimator {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-void LeftInvariantEkf::Propagate(const Increment& u, const Vector3d& g, const ProcessNoise& noise) {
+[[gnu::flatten]] void LeftInvariantEkf::Propagate(const Increment& u, const Vector3d& g,
+                                                  const ProcessNoise& noise) {
   const double dt = u.dt;
   const double dt2 = dt * dt;
+  const Lane a = ToLane(u.a);
   x_ = Propagated(x_, u, g);
 
   // In the axes of before the step: position first, it reads the old velocity. Then all turn.
-  const Lane dv = ToLane(-dt * (u.G1 * u.a)), dp = ToLane(-dt2 * (u.G2 * u.a));
   P_.AddRow(kPositionSlot, dt, kVelocitySlot);
-  P_.AddRow(kPositionSlot, CrossProduct{dp}, kThetaSlot);
-  P_.AddRow(kVelocitySlot, CrossProduct{dv}, kThetaSlot);
-  const Matrix3d turn = u.G0.transpose();
-  const LaneMatrix turn_lanes = ToLanes(turn);
-  for (const Slot slot : P_.active()) {
-    if (slot < kGyroBiasSlot) P_.MapRow(slot, turn_lanes);
-  }
+  P_.AddRow(kPositionSlot, CrossProduct{-dt2 * (u.G2 * a)}, kThetaSlot);
+  P_.AddRow(kVelocitySlot, CrossProduct{-dt * (u.G1 * a)}, kThetaSlot);
+  const LaneMatrix turn = Transposed(u.G0);
+  P_.slots().ForEachMoved([&](Slot slot) { P_.MapRow(slot, turn); });
 
   BiasColumns J;
-  J.gyro[kThetaSlot] = ToLanes(-dt * turn * u.G1);
-  J.gyro[kVelocitySlot] = ToLanes(-dt2 * turn * u.series.GammaDerivative(1, u.a));
-  J.gyro[kPositionSlot] = ToLanes(-dt2 * dt * turn * u.series.GammaDerivative(2, u.a));
+  J.gyro[kThetaSlot] = -dt * (turn * u.G1);
+  J.gyro[kVelocitySlot] = -dt2 * (turn * u.series.GammaDerivative(1, a));
+  J.gyro[kPositionSlot] = -dt2 * dt * (turn * u.series.GammaDerivative(2, a));
   J.accel_velocity = J.gyro[kThetaSlot];
-  J.accel_position = ToLanes(-dt2 * turn * u.G2);
+  J.accel_position = -dt2 * (turn * u.G2);
   P_.AddBiases(J, noise, dt);
 }
 
-void LeftInvariantEkf::Retract(const SlotVector& increment) {
-  const RotationSeries theta(ToEigen(increment[kThetaSlot]));
-  const Matrix3d RJ = x_.R * theta.Gamma(1);
-  for (const Slot slot : P_.active()) {
-    if (slot == kThetaSlot || slot >= kGyroBiasSlot) continue;
-    x_.At(slot) += RJ * ToEigen(increment[slot]);
-  }
-  x_.R = x_.R * theta.Gamma(0);
+[[gnu::flatten]] void LeftInvariantEkf::Retract(const SlotVector& increment) {
+  const RotationSeries<3> theta(increment[kThetaSlot]);
+  const LaneMatrix R = ToLanes(x_.R);
+  const LaneMatrix RJ = R * theta.GammaInLanes(1);
+  P_.slots().ForEachMoved([&](Slot slot) {
+    if (slot != kThetaSlot) x_.At(slot) = ToEigen(ToLane(x_.At(slot)) + RJ * increment[slot]);
+  });
+  x_.R = ToEigen(R * theta.GammaInLanes(0));
   RetractBiases(increment);
 }
 

@@ -20,14 +20,36 @@ inline constexpr std::size_t kMaxTerms = 6;
 template <int kRows>
 using Strip = std::conditional_t<kRows == 3, LaneMatrix, Lane>;
 
-/// What a measurement says of one slot: H is +1, −1 or a matrix, kept transposed.
+/// A matrix over the rows of a measurement, and a vector.
+template <int kRows>
+using Square = std::conditional_t<kRows == 3, LaneMatrix, double>;
+template <int kRows>
+using Row = std::conditional_t<kRows == 3, Lane, double>;
+inline Lane ToRow(const Eigen::Vector3d& z) { return ToLane(z); }
+inline double ToRow(const Eigen::Matrix<double, 1, 1>& z) { return z(0); }
+inline LaneMatrix ToSquare(const Eigen::Matrix3d& N) { return ToLanes(N); }
+inline double ToSquare(const Eigen::Matrix<double, 1, 1>& N) { return N(0); }
+
+/// An increment of the error by slot; only active slots count.
+using SlotVector = std::array<Lane, kSlots>;
+
+/// What H is in one slot.
+enum class TermKind : std::uint8_t { kPlus, kMinus, kBlock };
+
+/// What a measurement says of one slot: H is +1, −1 or a matrix (of one row: that row).
 template <int kRows>
 struct Term {
-  enum class Kind : std::uint8_t { kPlus, kMinus, kBlock };
   Slot slot;
-  Kind kind;
-  Strip<kRows> H_transposed;  ///< of a block
+  TermKind kind;
+  Strip<kRows> H;  ///< of a block
 };
+
+/// H x of one term: of an error, or of a strip P Hᵀ.
+template <class T>
+T Times(const Term<3>& term, const T& x) {
+  return term.kind == TermKind::kPlus ? x : term.kind == TermKind::kMinus ? -x : term.H * x;
+}
+inline double Times(const Term<1>& term, Lane x) { return Dot(term.H, x); }
 
 /// A measurement linearised at the state: z = −H ξ + noise of covariance N, in right-invariant
 /// error coordinates. A model names its blocks and nothing else; other error forms convert them.
@@ -39,28 +61,39 @@ class Linearisation {
  public:
   using Vector = Eigen::Matrix<double, kRows, 1>;
   using Matrix = Eigen::Matrix<double, kRows, kRows>;
-  using Kind = typename Term<kRows>::Kind;
 
   Vector z = Vector::Zero();
   Matrix N = Matrix::Zero();
 
-  void Plus(Slot slot) { Append({slot, Kind::kPlus, {}}); }
-  void Minus(Slot slot) { Append({slot, Kind::kMinus, {}}); }
+  void Plus(Slot slot) { Append(slot, TermKind::kPlus); }
+  void Minus(Slot slot) { Append(slot, TermKind::kMinus); }
   void Block(Slot slot, const Eigen::Matrix<double, kRows, 3>& H) {
     if constexpr (kRows == 3) {
-      Append({slot, Kind::kBlock, ToLanes(H.transpose())});
+      Block(slot, ToLanes(H));
     } else {
-      Append({slot, Kind::kBlock, ToLane(H.transpose())});
+      Block(slot, ToLane(H.transpose()));
     }
+  }
+
+  void Block(Slot slot, const Strip<kRows>& H) { Append(slot, TermKind::kBlock).H = H; }
+
+  /// z ← z − H δ: the innovation that is left after an increment δ which the mean has not seen yet.
+  void MoveBy(const SlotVector& increment) {
+    Row<kRows> left = ToRow(z);
+    for (const Term<kRows>& term : terms()) left -= Times(term, increment[term.slot]);
+    z = ToEigen(left);
   }
 
   std::span<const Term<kRows>> terms() const { return {terms_.data(), size_}; }
 
  private:
-  void Append(const Term<kRows>& term) {
-    assert(kRows == 3 || term.kind == Kind::kBlock);
+  Term<kRows>& Append(Slot slot, TermKind kind) {
+    assert(kRows == 3 || kind == TermKind::kBlock);
     assert(size_ < terms_.size());
-    terms_[size_++] = term;
+    Term<kRows>& term = terms_[size_++];
+    term.slot = slot;
+    term.kind = kind;
+    return term;
   }
 
   std::array<Term<kRows>, kMaxTerms> terms_;
@@ -71,11 +104,11 @@ class Linearisation {
 template <int kRows>
 Eigen::Matrix<double, kRows, 3> Dense(const Term<kRows>& term) {
   if constexpr (kRows == 3) {
-    if (term.kind == Term<3>::Kind::kBlock) return ToEigen(term.H_transposed).transpose();
-    const double sign = term.kind == Term<3>::Kind::kPlus ? 1.0 : -1.0;
+    if (term.kind == TermKind::kBlock) return ToEigen(term.H);
+    const double sign = term.kind == TermKind::kPlus ? 1.0 : -1.0;
     return sign * Eigen::Matrix3d::Identity();
   } else {
-    return ToEigen(term.H_transposed).transpose();
+    return ToEigen(term.H).transpose();
   }
 }
 

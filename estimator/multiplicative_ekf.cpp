@@ -5,34 +5,34 @@ namespace reckon::estimator {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-void MultiplicativeEkf::Propagate(const Increment& u, const Vector3d& g,
-                                  const ProcessNoise& noise) {
+[[gnu::flatten]] void MultiplicativeEkf::Propagate(const Increment& u, const Vector3d& g,
+                                                   const ProcessNoise& noise) {
   const double dt = u.dt;
   const double dt2 = dt * dt;
-  const Matrix3d R = x_.R;
+  const Lane a = ToLane(u.a);
+  const LaneMatrix R = ToLanes(x_.R);
   x_ = Propagated(x_, u, g);
 
   // Position first, it reads the old velocity; orientation last, all read the old one.
   P_.AddRow(kPositionSlot, dt, kVelocitySlot);
-  P_.AddRow(kPositionSlot, ToLanes(-dt2 * R * Skew(u.G2 * u.a)), kThetaSlot);
-  P_.AddRow(kVelocitySlot, ToLanes(-dt * R * Skew(u.G1 * u.a)), kThetaSlot);
-  P_.MapRow(kThetaSlot, ToLanes(u.G0.transpose()));
+  P_.AddRow(kPositionSlot, -dt2 * (R * DiagonalAndCross(0.0, u.G2 * a)), kThetaSlot);
+  P_.AddRow(kVelocitySlot, -dt * (R * DiagonalAndCross(0.0, u.G1 * a)), kThetaSlot);
+  P_.MapRow(kThetaSlot, Transposed(u.G0));
 
   BiasColumns J;
-  J.gyro[kThetaSlot] = ToLanes(-dt * u.G0.transpose() * u.G1);
-  J.gyro[kVelocitySlot] = ToLanes(-dt2 * R * u.series.GammaDerivative(1, u.a));
-  J.gyro[kPositionSlot] = ToLanes(-dt2 * dt * R * u.series.GammaDerivative(2, u.a));
-  J.accel_velocity = ToLanes(-dt * R * u.G1);
-  J.accel_position = ToLanes(-dt2 * R * u.G2);
+  J.gyro[kThetaSlot] = -dt * (Transposed(u.G0) * u.G1);
+  J.gyro[kVelocitySlot] = -dt2 * (R * u.series.GammaDerivative(1, a));
+  J.gyro[kPositionSlot] = -dt2 * dt * (R * u.series.GammaDerivative(2, a));
+  J.accel_velocity = -dt * (R * u.G1);
+  J.accel_position = -dt2 * (R * u.G2);
   P_.AddBiases(J, noise, dt);
 }
 
-void MultiplicativeEkf::Retract(const SlotVector& increment) {
-  x_.R = x_.R * Exp(ToEigen(increment[kThetaSlot]));
-  for (const Slot slot : P_.active()) {
-    if (slot == kThetaSlot || slot >= kGyroBiasSlot) continue;
-    x_.At(slot) += ToEigen(increment[slot]);
-  }
+[[gnu::flatten]] void MultiplicativeEkf::Retract(const SlotVector& increment) {
+  x_.R = ToEigen(ToLanes(x_.R) * RotationSeries<3>(increment[kThetaSlot]).GammaInLanes(0));
+  P_.slots().ForEachMoved([&](Slot slot) {
+    if (slot != kThetaSlot) x_.At(slot) = ToEigen(ToLane(x_.At(slot)) + increment[slot]);
+  });
   RetractBiases(increment);
 }
 

@@ -36,24 +36,27 @@ struct Increment {
         a(a_m_s2),
         dt(dt_s),
         series(w * dt),
-        G0(series.Gamma(0)),
-        G1(series.Gamma(1)),
-        G2(series.Gamma(2)) {}
+        G0(series.GammaInLanes(0)),
+        G1(series.GammaInLanes(1)),
+        G2(series.GammaInLanes(2)) {}
 
   Eigen::Vector3d w, a;
   double dt;
-  RotationSeries series;
-  Eigen::Matrix3d G0, G1, G2;
+  RotationSeries<> series;
+  LaneMatrix G0, G1, G2;
 };
 
 /// The state after `u` [Hartley20, strapdown integration with the sample held]:
 /// R⁺ = R Γ0,  v⁺ = v + R Γ1 a Δt + g Δt,  p⁺ = p + v Δt + R Γ2 a Δt² + ½ g Δt².
 inline NavigationState Propagated(const NavigationState& x, const Increment& u,
-                                  const Eigen::Vector3d& g) {
+                                  const Eigen::Vector3d& gravity) {
+  const LaneMatrix R = ToLanes(x.R);
+  const Lane v = ToLane(x.v), p = ToLane(x.p), a = ToLane(u.a), g = ToLane(gravity);
+  const double dt = u.dt;
   NavigationState next = x;
-  next.R = x.R * u.G0;
-  next.v = x.v + x.R * (u.G1 * u.a) * u.dt + g * u.dt;
-  next.p = x.p + x.v * u.dt + x.R * (u.G2 * u.a) * (u.dt * u.dt) + 0.5 * g * (u.dt * u.dt);
+  next.R = ToEigen(R * u.G0);
+  next.v = ToEigen(v + dt * (R * (u.G1 * a) + g));
+  next.p = ToEigen(p + dt * (v + dt * (R * (u.G2 * a) + 0.5 * g)));
   return next;
 }
 
