@@ -17,8 +17,27 @@ void Covariance::Start(const ErrorCovariance& P) {
   }
 }
 
+[[gnu::flatten]] void Covariance::GetColumn(Slot slot, Column& column) const {
+  slots_.Visit([&](const auto& slots) RECKON_INLINED {
+    WithConstant(slot, [&](Slot j) RECKON_INLINED {
+      slots.ForEach([&](Slot i) RECKON_INLINED { column[i] = Get(i, j); });
+    });
+  });
+}
+
+[[gnu::flatten]] void Covariance::SetColumn(Slot slot, const Column& column) {
+  slots_.Visit([&](const auto& slots) RECKON_INLINED {
+    WithConstant(slot, [&](Slot j) RECKON_INLINED {
+      slots.ForEach([&](Slot i) RECKON_INLINED {
+        if (i <= j) (*this)(i, j) = column[i];
+        if (i > j) (*this)(j, i) = Transposed(column[i]);
+      });
+    });
+  });
+}
+
 [[gnu::flatten]] void Covariance::MapRow(Slot i, const LaneMatrix& M) {
-  slots_.ForEach([&](Slot k) {
+  slots_.loops().ForEach([&](Slot k) {
     if (k < i) (*this)(k, i) = TimesTransposed((*this)(k, i), M);
     if (k >= i) (*this)(i, k) = M * (*this)(i, k);
   });
@@ -39,7 +58,8 @@ void Covariance::Start(const ErrorCovariance& P) {
   };
 
   std::array<LaneMatrix, kSlots> Wg, Wa;
-  slots_.ForEachMoved([&](Slot i) {
+  const auto loops = slots_.loops();
+  loops.ForEachMoved([&](Slot i) {
     LaneMatrix to_gyro = J.gyro[i] * gg;
     LaneMatrix to_accel = J.gyro[i] * ga;
     LaneMatrix& Ug = (*this)(i, kGyroBiasSlot);
@@ -55,8 +75,8 @@ void Covariance::Start(const ErrorCovariance& P) {
     Ug += to_gyro;
     Ua += to_accel;
   });
-  slots_.ForEachMoved([&](Slot j) {
-    slots_.ForEachUpTo(j, [&](Slot i) {
+  loops.ForEachMoved([&](Slot j) {
+    loops.ForEachUpTo(j, [&](Slot i) {
       LaneMatrix sum = TimesTransposed(Wg[i], J.gyro[j]);
       if (const LaneMatrix* Ja = accel(j)) AddTimesTransposed(sum, Wa[i], *Ja);
       if (i == j) {
@@ -73,7 +93,7 @@ void Covariance::Start(const ErrorCovariance& P) {
 }
 
 [[gnu::flatten]] void Covariance::AddFoot(Slot foot, const LaneMatrix& noise) {
-  slots_.ForEach([&](Slot k) {
+  slots_.loops().ForEach([&](Slot k) {
     if (k < foot) (*this)(k, foot) = Get(k, kPositionSlot);
     if (k > foot) (*this)(foot, k) = (*this)(kPositionSlot, k);
   });

@@ -19,6 +19,9 @@ struct BiasColumns {
   LaneMatrix accel_velocity, accel_position;
 };
 
+/// A block for each slot: a column of a covariance.
+using Column = std::array<LaneMatrix, kSlots>;
+
 /// The covariance of an error with fixed slots, of which a list is active: adding or removing a
 /// foot moves nothing else. Each pair of slots is kept once, as a 3×3 block. Nothing allocates.
 class Covariance {
@@ -39,6 +42,10 @@ class Covariance {
   LaneMatrix Get(Slot i, Slot j) const {
     return i <= j ? (*this)(i, j) : Transposed((*this)(j, i));
   }
+
+  /// The blocks (i, j) of a column j, all as rows i see them.
+  void GetColumn(Slot j, Column& column) const;
+  void SetColumn(Slot j, const Column& column);
 
   /// e_i ← e_i + M e_j; `M` is what a block can be multiplied with.
   template <class Factor>
@@ -75,7 +82,7 @@ class Covariance {
 template <class Factor>
 [[gnu::always_inline]] inline void Covariance::AddRow(Slot i, const Factor& M, Slot j) {
   const LaneMatrix before = M * Get(j, i);
-  slots_.ForEach([&](Slot k) {
+  slots_.loops().ForEach([&](Slot k) RECKON_INLINED {
     if (k < i) (*this)(k, i) += TimesTransposed(Get(k, j), M);
     if (k > i) (*this)(i, k) += M * Get(j, k);
   });

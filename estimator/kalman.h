@@ -35,9 +35,12 @@ class KalmanCorrection {
   void UpdateCovariance(Covariance& P) const;
 
  private:
+  template <class Slots>
+  void Update(Covariance& P, Slots slots) const;
+
   const Linearisation<kRows>& m_;
   const ActiveSlots& slots_;
-  std::array<Strip<kRows>, kSlots> C_;
+  Strips<kRows> C_;
   Square<kRows> N_, S_, S_inverse_;
   Row<kRows> z_;
   double nis_;

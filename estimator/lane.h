@@ -1,14 +1,14 @@
 #pragma once
 
-#if defined(__AVX__)
+#if defined(__AVX2__)
 #include <immintrin.h>
 #else
-#include <emmintrin.h>
+#include <cstring>
 #endif
 
 namespace reckon::estimator {
 
-/// Four doubles that move together: a 3-vector and a padding number that nobody reads. One AVX
+/// Four doubles that move together: a 3-vector and a padding number that nobody reads. One AVX2
 /// register where the compiler may use those, otherwise two of SSE: a 32-byte vector on plain
 /// x86-64 is several times slower than that. The arithmetic is the same either way but for fused
 /// multiply-adds.
@@ -17,7 +17,7 @@ class Lane {
   Lane() = default;
   static Lane Zero() { return All(0.0); }
 
-#if defined(__AVX__)
+#if defined(__AVX2__)
   Lane(double x, double y, double z) : v_{x, y, z, z} {}
   static Lane All(double s) { return Lane(Four{s, s, s, s}); }
   /// Of three numbers that lie in a row.
@@ -57,10 +57,14 @@ class Lane {
   Lane(double x, double y, double z) : low_{x, y}, high_{z, z} {}
   static Lane All(double s) { return Lane(Two{s, s}, Two{s, s}); }
   /// Of three numbers that lie in a row.
-  static Lane Load(const double* xyz) { return Lane(_mm_loadu_pd(xyz), Two{xyz[2], xyz[2]}); }
+  static Lane Load(const double* xyz) {
+    Lane v(Two{}, Two{xyz[2], xyz[2]});
+    std::memcpy(&v.low_, xyz, sizeof v.low_);
+    return v;
+  }
   void Store(double* xyz) const {
-    _mm_storeu_pd(xyz, low_);
-    _mm_storel_pd(xyz + 2, high_);
+    std::memcpy(xyz, &low_, sizeof low_);
+    xyz[2] = high_[0];
   }
 
   double operator[](int i) const { return i < 2 ? low_[i] : high_[i - 2]; }
@@ -72,20 +76,19 @@ class Lane {
 
   /// (y, z, x).
   Lane Rotated() const {
-    return Lane(_mm_shuffle_pd(low_, high_, 0b01), _mm_unpacklo_pd(low_, high_));
+    return Lane(Two{low_[1], high_[0]}, Two{low_[0], high_[0]});
   }
 
   /// The columns of a 3×3 matrix become its rows.
   static void Transpose(Lane& a, Lane& b, Lane& c) {
-    const Two last = c.low_;
-    c = Lane(_mm_unpacklo_pd(a.high_, b.high_), c.high_);
-    const Two first = _mm_unpacklo_pd(a.low_, b.low_);
-    b = Lane(_mm_unpackhi_pd(a.low_, b.low_), _mm_unpackhi_pd(last, last));
+    const Two first{a.low_[0], b.low_[0]}, second{a.low_[1], b.low_[1]}, last = c.low_;
+    c = Lane(Two{a.high_[0], b.high_[0]}, c.high_);
+    b = Lane(second, Two{last[1], last[1]});
     a = Lane(first, last);
   }
 
  private:
-  using Two = __m128d;
+  using Two = double __attribute__((vector_size(16)));
   Lane(Two low, Two high) : low_(low), high_(high) {}
   Two low_, high_;
 #endif

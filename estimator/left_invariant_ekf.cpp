@@ -17,7 +17,7 @@ using Eigen::Vector3d;
   P_.AddRow(kPositionSlot, CrossProduct{-dt2 * (u.G2 * a)}, kThetaSlot);
   P_.AddRow(kVelocitySlot, CrossProduct{-dt * (u.G1 * a)}, kThetaSlot);
   const LaneMatrix turn = Transposed(u.G0);
-  P_.slots().ForEachMoved([&](Slot slot) { P_.MapRow(slot, turn); });
+  P_.slots().loops().ForEachMoved([&](Slot slot) { P_.MapRow(slot, turn); });
 
   BiasColumns J;
   J.gyro[kThetaSlot] = -dt * (turn * u.G1);
@@ -32,7 +32,7 @@ using Eigen::Vector3d;
   const RotationSeries<3> theta(increment[kThetaSlot]);
   const LaneMatrix R = ToLanes(x_.R);
   const LaneMatrix RJ = R * theta.GammaInLanes(1);
-  P_.slots().ForEachMoved([&](Slot slot) {
+  P_.slots().loops().ForEachMoved([&](Slot slot) {
     if (slot != kThetaSlot) x_.At(slot) = ToEigen(ToLane(x_.At(slot)) + RJ * increment[slot]);
   });
   x_.R = ToEigen(R * theta.GammaInLanes(0));

@@ -20,6 +20,10 @@ inline constexpr std::size_t kMaxTerms = 6;
 template <int kRows>
 using Strip = std::conditional_t<kRows == 3, LaneMatrix, Lane>;
 
+/// One for every slot: P Hᵀ, or a gain.
+template <int kRows>
+using Strips = std::array<Strip<kRows>, kSlots>;
+
 /// A matrix over the rows of a measurement, and a vector.
 template <int kRows>
 using Square = std::conditional_t<kRows == 3, LaneMatrix, double>;
@@ -85,12 +89,14 @@ class Linearisation {
   }
 
   std::span<const Term<kRows>> terms() const { return {terms_.data(), size_}; }
+  SlotSet slots() const { return slots_; }
 
  private:
   Term<kRows>& Append(Slot slot, TermKind kind) {
     assert(kRows == 3 || kind == TermKind::kBlock);
     assert(size_ < terms_.size());
     Term<kRows>& term = terms_[size_++];
+    slots_.Add(slot);
     term.slot = slot;
     term.kind = kind;
     return term;
@@ -98,6 +104,7 @@ class Linearisation {
 
   std::array<Term<kRows>, kMaxTerms> terms_;
   std::size_t size_ = 0;
+  SlotSet slots_;
 };
 
 /// H of a term as a dense matrix.

@@ -30,7 +30,7 @@ using Eigen::Vector3d;
 
 [[gnu::flatten]] void MultiplicativeEkf::Retract(const SlotVector& increment) {
   x_.R = ToEigen(ToLanes(x_.R) * RotationSeries<3>(increment[kThetaSlot]).GammaInLanes(0));
-  P_.slots().ForEachMoved([&](Slot slot) {
+  P_.slots().loops().ForEachMoved([&](Slot slot) {
     if (slot != kThetaSlot) x_.At(slot) = ToEigen(ToLane(x_.At(slot)) + increment[slot]);
   });
   RetractBiases(increment);

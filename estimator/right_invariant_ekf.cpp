@@ -36,7 +36,7 @@ using Eigen::Vector3d;
   const LaneMatrix turn = theta.GammaInLanes(0);
   const LaneMatrix J = theta.GammaInLanes(1);
   x_.R = ToEigen(turn * ToLanes(x_.R));
-  P_.slots().ForEachMoved([&](Slot slot) {
+  P_.slots().loops().ForEachMoved([&](Slot slot) {
     if (slot == kThetaSlot) return;
     x_.At(slot) = ToEigen(turn * ToLane(x_.At(slot)) + J * increment[slot]);
   });
