@@ -75,6 +75,7 @@ FilterBeliefs::FilterBeliefs(const Setup& told)
     throw std::invalid_argument("the gyro filter's source `" + told.gyro_filter.source +
                                 "` is the IMU that it refines");
   }
+  gyro_source_is_imu = gyro_source && gyro_source != wheels;
   X_IS = FramesInI(suite, imu, wheels);
 }
 

@@ -35,6 +35,7 @@ struct FilterBeliefs {
   int MostCorrections(const models::Measurement& measurement) const;
 
   std::optional<models::SensorId> wheels, leg_encoders, contacts, gyro_source;
+  bool gyro_source_is_imu = false;
 };
 
 }  // namespace reckon::estimator

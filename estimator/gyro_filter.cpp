@@ -1,60 +1,60 @@
 #include "reckon/estimator/gyro_filter.h"
 
+#include <algorithm>
+
 namespace reckon::estimator {
 
-using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 GyroFilterStage::GyroFilterStage(const GyroFilterNoise& noise) : noise_(noise) {}
 
-void GyroFilterStage::Start(const Vector3d& bias, double variance) {
-  for (int i = 0; i < 3; ++i) {
-    axes_[i].x = {bias[i], 0.0, 0.0};
-    axes_[i].P = Vector3d(variance, noise_.white, noise_.second_imu_bias).asDiagonal();
-  }
+void GyroFilterStage::Start() {
+  for (Axis& axis : axes_) axis = {.P_n = noise_.white, .P_d = noise_.difference};
 }
 
 void GyroFilterStage::Advance(const Vector3d& alpha, double dt_s) {
   alpha_ = alpha;
   for (Axis& axis : axes_) {
-    axis.x[1] = 0.0;
-    axis.P.row(1).setZero();
-    axis.P.col(1).setZero();
-    axis.P(1, 1) = noise_.white;
-    axis.P(0, 0) += noise_.walk * dt_s;
-    axis.P(2, 2) += noise_.walk * dt_s;
+    axis.n = 0.0;
+    axis.P_n = noise_.white;
+    axis.P_d += noise_.walk * dt_s;
+    axis.K = 0.0;
   }
 }
 
-GyroFilterStage::Innovation GyroFilterStage::Expect(int i, double beta, double variance,
-                                          bool from_imu) const {
-  const Vector3d H = Row(from_imu);
-  return {beta - alpha_[i] - H.dot(axes_[i].x), H.dot(axes_[i].P * H) + variance};
+GyroFilterStage::Innovation GyroFilterStage::Expect(int i, double beta, double variance) const {
+  const Axis& axis = axes_[i];
+  return {beta - (alpha_[i] - axis.n) - axis.d, axis.P_n + axis.P_d + variance};
 }
 
-void GyroFilterStage::Correct(int i, const Innovation& innovation, bool from_imu) {
+void GyroFilterStage::Correct(int i, double beta, double variance) {
   Axis& axis = axes_[i];
-  const Vector3d H = Row(from_imu), K = axis.P * H / innovation.S;
-  const double R = innovation.S - H.dot(axis.P * H);
-  axis.x += K * innovation.z;
-  const Matrix3d A = Matrix3d::Identity() - K * H.transpose();
-  axis.P = A * axis.P * A.transpose() + R * K * K.transpose();
+  const auto [z, S] = Expect(i, beta, variance);
+  const double K_d = axis.P_d / S;
+  axis.d += K_d * z;
+  axis.P_d *= 1.0 - K_d;
+  axis.K = axis.P_n / (axis.P_n + variance);
+  axis.n -= axis.K * (beta - (alpha_[i] - axis.n));
+  axis.P_n *= 1.0 - axis.K;
+}
+
+void GyroFilterStage::CorrectNoise(int i, double z, double S) {
+  Axis& axis = axes_[i];
+  const double K = axis.P_n / S;
+  axis.n -= K * z;
+  axis.P_n *= 1.0 - K;
 }
 
 Vector3d GyroFilterStage::rate() const {
-  Vector3d rate = alpha_;
-  for (int i = 0; i < 3; ++i) rate[i] -= axes_[i].x[0] + axes_[i].x[1];
-  return rate;
+  return alpha_ - Vector3d(axes_[0].n, axes_[1].n, axes_[2].n);
 }
 
-Vector3d GyroFilterStage::bias() const { return {axes_[0].x[0], axes_[1].x[0], axes_[2].x[0]}; }
-
-Vector3d GyroFilterStage::bias_variance() const {
-  return {axes_[0].P(0, 0), axes_[1].P(0, 0), axes_[2].P(0, 0)};
+Vector3d GyroFilterStage::bias_of_first() const {
+  return -Vector3d(axes_[0].K * axes_[0].d, axes_[1].K * axes_[1].d, axes_[2].K * axes_[2].d);
 }
 
-Vector3d GyroFilterStage::white_variance() const {
-  return {axes_[0].P(1, 1), axes_[1].P(1, 1), axes_[2].P(1, 1)};
+double GyroFilterStage::white_variance() const {
+  return std::max({axes_[0].P_n, axes_[1].P_n, axes_[2].P_n});
 }
 
 }  // namespace reckon::estimator

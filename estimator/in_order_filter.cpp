@@ -12,9 +12,9 @@
 #include "reckon/estimator/pose_model.h"
 #include "reckon/estimator/reanchoring.h"
 #include "reckon/estimator/right_invariant_ekf.h"
-#include "reckon/estimator/second_rate.h"
 #include "reckon/estimator/standstill_model.h"
 #include "reckon/estimator/wheel_model.h"
+#include "reckon/estimator/yaw_rate_model.h"
 
 namespace reckon::estimator {
 namespace {
@@ -36,11 +36,12 @@ constexpr double kStands = 0.5;
 GyroFilterNoise StageNoise(const FilterBeliefs& beliefs) {
   GyroFilterNoise noise;
   noise.white = beliefs.noise.gyro / models::Seconds(beliefs.period_ns);
-  noise.walk = beliefs.noise.gyro_walk;
+  noise.walk = 2.0 * beliefs.noise.gyro_walk;
+  const double sigma = beliefs.setup.gyro_filter.bias_sigma_rad_s;
+  noise.difference = 2.0 * sigma * sigma;
   return noise;
 }
 
-double Mean(const LaneMatrix& P) { return (P(0, 0) + P(1, 1) + P(2, 2)) / 3.0; }
 double LargestSigma(const LaneMatrix& P) {
   return std::sqrt(std::max({P(0, 0), P(1, 1), P(2, 2)}));
 }
@@ -82,14 +83,23 @@ void InOrderFilter<Core>::Start(TimeNs t_ns, const NavigationState& x, const Err
   if (!beliefs_->setup.estimate_gyro_bias) Forget(kept, kGyroBias);
   if (!beliefs_->setup.estimate_accel_bias) Forget(kept, kAccelBias);
   core_.Start(x, kept);
-  if (beliefs_->gyro_source) {
-    stage_.Start(x.gyro_bias, Mean(core_.P()(kGyroBiasSlot, kGyroBiasSlot)));
-    core_.x().gyro_bias.setZero();
-  }
+  if (beliefs_->gyro_source_is_imu && beliefs_->setup.estimate_gyro_bias) StartMeanBias();
+  stage_.Start();
   t_ns_ = covered_from_ns_ = t_ns;
   sample_s_ = unseen_s_ = 0.0;
   rest_.Restart();
   standing_.fill(false);
+}
+
+/// With a second IMU the filter's bias is the mean of two: of the other nothing is known but that
+/// it is small.
+template <class Core>
+void InOrderFilter<Core>::StartMeanBias() {
+  const LaneMatrix half = LaneMatrix::Diagonal(0.5);
+  core_.P().MapRow(kGyroBiasSlot, half);
+  core_.x().gyro_bias *= 0.5;
+  const double sigma = beliefs_->setup.gyro_filter.bias_sigma_rad_s;
+  core_.P()(kGyroBiasSlot, kGyroBiasSlot) += LaneMatrix::Diagonal(0.25 * sigma * sigma);
 }
 
 template <class Core>
@@ -118,7 +128,7 @@ ProcessNoise InOrderFilter<Core>::NoiseAt(TimeNs t_ns) const {
     noise.accel += kUnseenAcceleration * kUnseenAcceleration * unseen_s_;
     return noise;
   }
-  if (beliefs_->gyro_source) noise.gyro = stage_.white_variance().maxCoeff() * sample_s_;
+  if (beliefs_->gyro_source) noise.gyro = stage_.white_variance() * sample_s_;
   if (gyro_saturated_) noise.gyro *= kSaturatedFactor * kSaturatedFactor;
   if (accel_saturated_) noise.accel *= kSaturatedFactor * kSaturatedFactor;
   return noise;
@@ -150,35 +160,45 @@ void InOrderFilter<Core>::CoastTo(TimeNs t_ns) {
 template <class Core>
 TurnRate InOrderFilter<Core>::Turn() const {
   double variance = sample_s_ > 0.0 ? beliefs_->noise.gyro / sample_s_ : 0.0;
-  if (beliefs_->gyro_source) variance = stage_.white_variance().maxCoeff();
+  if (beliefs_->gyro_source) variance = stage_.white_variance();
   return {Rate() - core_.x().gyro_bias, variance};
 }
 
 template <class Core>
 void InOrderFilter<Core>::Refine(const Measurement& m, Report* report) {
-  const SecondRate beta = ReadSecondRate(m, *beliefs_);
-  std::array<GyroFilterStage::Innovation, 3> innovations;
-  Correction correction{.t_ns = m.valid_ns, .sensor = m.sensor, .rows = 3 - beta.first};
-  for (int i = beta.first; i < 3; ++i) {
-    const int row = i - beta.first;
-    innovations[i] = stage_.Expect(i, beta.w[i], beta.variance, beta.from_imu);
-    correction.innovation[row] = innovations[i].z;
-    correction.covariance(row, row) = innovations[i].S;
-    correction.nis += innovations[i].nis();
+  if (const auto* imu = std::get_if<models::ImuSample>(&m.sample)) {
+    return RefineByImu(m, *imu, report);
   }
-  correction.decision = beliefs_->gate.Judge(correction.rows, correction.nis);
+  const models::WheelDrive& wheels = *beliefs_->setup.suite.wheels;
+  const auto rates = MeanRates(std::get<models::EncoderSample>(m.sample), wheels);
+  const double sigma = beliefs_->setup.noise.wheel_yaw_rate_rad_per_s;
+  const double yaw_rate = WheelYawRate(*rates, wheels), w_z = stage_.rate().z();
+  const double variance = sigma * sigma + stage_.white_variance(2);
+  const auto applied = Apply(
+      m.valid_ns, m.sensor,
+      [&](const NavigationState& x) { return LinearisedYawRate(yaw_rate, w_z, variance, x); },
+      report);
+  if (applied) stage_.CorrectNoise(2, applied->innovation[0], applied->covariance(0, 0));
+}
+
+template <class Core>
+void InOrderFilter<Core>::RefineByImu(const Measurement& m, const models::ImuSample& y,
+                                      Report* report) {
+  const Vector3d beta = beliefs_->X_IS[m.sensor].R * y.gyro_rad_s;
+  const double variance = beliefs_->noise.gyro / models::Seconds(y.interval_ns);
+  Correction correction{.t_ns = m.valid_ns, .sensor = m.sensor, .rows = 3};
+  for (int i = 0; i < 3; ++i) {
+    const auto [z, S] = stage_.Expect(i, beta[i], variance);
+    correction.innovation[i] = z;
+    correction.covariance(i, i) = S;
+    correction.nis += z * z / S;
+  }
+  correction.decision = beliefs_->gate.Judge(3, correction.nis);
+  // There is no half belief in a second rate: its noise is the first one's.
+  if (correction.decision == Decision::kInflated) correction.decision = Decision::kRejected;
   if (report != nullptr) report->Add(correction);
   if (correction.decision == Decision::kRejected) return;
-  const bool inflated = correction.decision == Decision::kInflated;
-  const Vector3d before = stage_.bias_variance();
-  for (int i = beta.first; i < 3; ++i) {
-    if (inflated) innovations[i].S *= correction.nis / beliefs_->gate.Limit(correction.rows);
-    stage_.Correct(i, innovations[i], beta.from_imu);
-  }
-  if (!beliefs_->setup.estimate_gyro_bias) return;
-  // The residual bias moved by what the stage's bias moved, and nobody told this filter.
-  const Vector3d moved = before - stage_.bias_variance();
-  core_.P()(kGyroBiasSlot, kGyroBiasSlot) += ToLanes(moved.asDiagonal());
+  for (int i = 0; i < 3; ++i) stage_.Correct(i, beta[i], variance);
 }
 
 template <class Core>
@@ -294,8 +314,8 @@ void InOrderFilter<Core>::EndSample(Report* report) {
   if (!setup.standstill.use) return;
   rest_.Add(gyro_, accel_, sample_s_);
   if (!rest_.CanTell()) return;
-  const Vector3d stage_bias = beliefs_->gyro_source ? stage_.bias() : Vector3d(Vector3d::Zero());
-  if (rest_.LooksMoving({core_.x().gyro_bias + stage_bias, core_.x().accel_bias,
+  const Vector3d bias_of_first = BiasOfFirst();
+  if (rest_.LooksMoving({bias_of_first, core_.x().accel_bias,
                          LargestSigma(core_.P()(kGyroBiasSlot, kGyroBiasSlot)),
                          LargestSigma(core_.P()(kAccelBiasSlot, kAccelBiasSlot))})) {
     return rest_.Restart();
@@ -310,7 +330,7 @@ void InOrderFilter<Core>::EndSample(Report* report) {
   if (setup.estimate_gyro_bias) {
     const double sigma = setup.noise.standstill_rad_per_s;
     const double variance = rest_.gyro_sigma() * rest_.gyro_sigma() / rest_.count() + sigma * sigma;
-    const Vector3d w = rest_.gyro() - stage_bias;
+    const Vector3d w = rest_.gyro() - bias_of_first + core_.x().gyro_bias;
     Apply(
         t_ns_, beliefs_->imu,
         [&](const NavigationState& x) { return LinearisedZeroRate(w, variance, x); }, report);
@@ -320,8 +340,8 @@ void InOrderFilter<Core>::EndSample(Report* report) {
 
 template <class Core>
 template <class Model>
-void InOrderFilter<Core>::Apply(TimeNs t_ns, models::SensorId sensor, const Model& model,
-                                Report* report) {
+std::optional<Correction> InOrderFilter<Core>::Apply(TimeNs t_ns, models::SensorId sensor,
+                                                     const Model& model, Report* report) {
   const auto linearised = model(core_.x());
   constexpr int kRows = std::decay_t<decltype(linearised)>::Vector::RowsAtCompileTime;
   const auto& own = Core::Convert(linearised, core_.x());
@@ -336,22 +356,26 @@ void InOrderFilter<Core>::Apply(TimeNs t_ns, models::SensorId sensor, const Mode
   }
   if (report != nullptr) report->Add(correction);
   if (correction.decision == Decision::kRejected || correction.decision == Decision::kRefused) {
-    return;
+    return std::nullopt;
   }
   if (correction.decision == Decision::kInflated) {
     kalman.Inflate(beliefs_->gate.Limit(kRows));
   } else if constexpr (Core::kForm == ErrorForm::kRightInvariant) {
     const int iterations = beliefs_->setup.iterations;
-    if (iterations > 1) return CorrectIterated<kRows>(core_, model, iterations);
+    if (iterations > 1) {
+      CorrectIterated<kRows>(core_, model, iterations);
+      return correction;
+    }
   }
   core_.Retract(kalman.Gain());
   kalman.UpdateCovariance(core_.P());
+  return correction;
 }
 
 template <class Core>
 void InOrderFilter<Core>::StartAgain(TimeNs t_ns, const Vector3d& up_I) {
   NavigationState x = core_.x();
-  if (beliefs_->gyro_source) x.gyro_bias += stage_.bias();
+  x.gyro_bias = BiasOfFirst();
   const Reanchored after =
       Reanchor(x, core_.P().Dense(), beliefs_->noise, up_I, models::Seconds(t_ns - t_ns_));
   Start(t_ns, after.x, after.P);
@@ -366,8 +390,7 @@ Estimate InOrderFilter<Core>::Belief() const {
   estimate.t_ns = t_ns_;
   estimate.X_WB = {x.R, x.p + x.R * r_IB};
   estimate.v_WB = x.v + x.R * turn.w_rad_s.cross(r_IB);
-  estimate.gyro_bias_rad_s = x.gyro_bias;
-  if (beliefs_->gyro_source) estimate.gyro_bias_rad_s += stage_.bias();
+  estimate.gyro_bias_rad_s = BiasOfFirst();
   estimate.accel_bias_m_s2 = x.accel_bias;
   estimate.form = Core::kForm;
   estimate.has_covariance = true;

@@ -70,15 +70,20 @@ class InOrderFilter {
   void Use(const models::Measurement& m, const models::ContactSample& y, Report* report);
   void Use(const models::Measurement& /*m*/, const models::ImuSample& /*y*/, Report* /*report*/) {}
   void UseLegs(const models::Measurement& m, const models::EncoderSample& y, Report* report);
+  void RefineByImu(const models::Measurement& m, const models::ImuSample& y, Report* report);
+  void StartMeanBias();
   template <class Point>
   void UseFloor(const models::Measurement& m, Slot slot, const Point& point, Report* report);
 
-  /// Corrects with what `model` says at a state, a Linearisation<1 or 3>.
+  /// Corrects with what `model` says at a state, a Linearisation<1 or 3>; nothing if it was not
+  /// used.
   template <class Model>
-  void Apply(models::TimeNs t_ns, models::SensorId sensor, const Model& model, Report* report);
+  std::optional<Correction> Apply(models::TimeNs t_ns, models::SensorId sensor, const Model& model,
+                                  Report* report);
 
   ProcessNoise NoiseAt(models::TimeNs t_ns) const;
   TurnRate Turn() const;
+  Eigen::Vector3d BiasOfFirst() const { return core_.x().gyro_bias + stage_.bias_of_first(); }
   Eigen::Vector3d Rate() const { return beliefs_->gyro_source ? stage_.rate() : gyro_; }
 
   const FilterBeliefs* beliefs_;
@@ -93,7 +98,7 @@ class InOrderFilter {
   double unseen_s_ = 0.0;                            ///< the length of that
   bool gyro_saturated_ = false, accel_saturated_ = false;
 
-  GyroFilterStage stage_;
+  GyroFilterStage stage_;  ///< idle without a second source of the rate
   RestAverage rest_;
   std::array<bool, kMaxFeet> standing_{};
 };

@@ -43,6 +43,8 @@ void CheckGyroSource(const Setup& setup) {
   const bool wheels = suite.wheels && suite.wheels->encoders == source;
   Require(wheels || Has(suite, source, models::SensorKind::kImu),
           "the gyro filter's source `" + source + "` is neither an IMU nor the wheels' encoders");
+  const double sigma = setup.gyro_filter.bias_sigma_rad_s;
+  Require(std::isfinite(sigma) && sigma >= 0.0, "bias_sigma_rad_s must not be negative");
   Require(!wheels || setup.noise.wheel_yaw_rate_rad_per_s > 0.0,
           "a gyro filter with wheels needs a positive wheel_yaw_rate_rad_per_s");
   Require(!wheels || suite.wheels->effective_track_m > 0.0,
