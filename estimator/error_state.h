@@ -23,6 +23,7 @@ class ErrorState {
   }
 
   const NavigationState& x() const { return x_; }
+  NavigationState& x() { return x_; }
   const Covariance& P() const { return P_; }
   Covariance& P() { return P_; }
 
