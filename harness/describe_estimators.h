@@ -76,6 +76,8 @@ void Describe(Archive& a, estimator::GyroFilter& g) {
   a.Field("source", g.source,
           "The sensor that refines the angular rate beside the IMU: another IMU, or the wheels' "
           "encoders; empty: none");
+  a.Field("bias_sigma_rad_s", g.bias_sigma_rad_s, "Turn-on bias of that other IMU, each axis",
+          Between(0, 10));
 }
 
 template <class Archive>

@@ -89,7 +89,9 @@ Json Beliefs(const estimator::Setup& setup) {
           {"history_s", setup.history_s},
           {"standstill", {{"use", setup.standstill.use}, {"window_s", setup.standstill.window_s}}},
           {"floor", {{"use", setup.floor.use}, {"height_m", setup.floor.height_m}}},
-          {"gyro_filter", {{"source", setup.gyro_filter.source}}},
+          {"gyro_filter",
+           {{"source", setup.gyro_filter.source},
+            {"bias_sigma_rad_s", setup.gyro_filter.bias_sigma_rad_s}}},
           {"estimate_gyro_bias", setup.estimate_gyro_bias},
           {"estimate_accel_bias", setup.estimate_accel_bias},
           {"gravity_m_s2", setup.gravity_m_s2}};
