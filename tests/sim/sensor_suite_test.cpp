@@ -93,16 +93,6 @@ bool SameBits(const models::ContactSample& a, const models::ContactSample& b) {
   return a.probability == b.probability;
 }
 
-bool SameBits(const models::DepthSample& a, const models::DepthSample& b) {
-  return a.depth_m == b.depth_m;
-}
-bool SameBits(const models::PoseSample& a, const models::PoseSample& b) {
-  return a.X_WS.R == b.X_WS.R && a.X_WS.p == b.X_WS.p;
-}
-bool SameBits(const models::ContactSample& a, const models::ContactSample& b) {
-  return a.probability == b.probability;
-}
-
 bool SameBits(const std::vector<Measurement>& a, const std::vector<Measurement>& b) {
   if (a.size() != b.size()) return false;
   for (std::size_t n = 0; n < a.size(); ++n) {
