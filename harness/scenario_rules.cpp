@@ -262,6 +262,14 @@ class Rules {
     Complain(path + "/initialisation/kind", "'pose' needs a pose sensor, and is given none");
   }
 
+  /// The IMU that moves a filter: the robot's first, by name; empty if there is none.
+  std::string FirstImu() const {
+    for (const auto& [name, sensor] : s_.sensors) {
+      if (std::holds_alternative<sim::ImuConfig>(sensor.errors)) return name;
+    }
+    return "";
+  }
+
   void CheckGyroFilter(const std::string& path, const EstimatorConfig& estimator) const {
     const std::string& source = estimator.gyro_filter.source;
     if (source.empty()) return;
@@ -271,6 +279,7 @@ class Rules {
     const bool wheels = source == s_.nominal.wheels.encoders;
     Require(wheels || std::holds_alternative<sim::ImuConfig>(sensor->second.errors), path,
             "an IMU or the wheels' encoders");
+    Require(source != FirstImu(), path, "another IMU than the one that it refines");
     Require(IsGiven(estimator, source), path, "a sensor that the estimator is given");
     Require(!wheels || estimator.noise.wheel_yaw_rate_rad_per_s > 0.0, path,
             "a positive noise wheel_yaw_rate_rad_per_s beside wheels");
@@ -278,10 +287,14 @@ class Rules {
 
   /// What is used must be weighed: no sigma of it can be zero.
   void CheckBelievedNoise(const std::string& path, const EstimatorConfig& estimator) const {
-    Require(!estimator.standstill.use || (estimator.noise.standstill_m_per_s > 0.0 &&
-                                          estimator.noise.standstill_rad_per_s > 0.0),
-            path + "/standstill/use",
-            "positive noises standstill_m_per_s and standstill_rad_per_s beside it");
+    Require(!estimator.standstill.use || estimator.noise.standstill_m_per_s > 0.0,
+            path + "/standstill/use", "a positive noise standstill_m_per_s beside it");
+    const auto is_depth = [](const auto& entry) {
+      return std::holds_alternative<sim::DepthConfig>(entry.second.errors);
+    };
+    Require(estimator.noise.depth_m > 0.0 ||
+                std::none_of(s_.sensors.begin(), s_.sensors.end(), is_depth),
+            path + "/noise", "a positive depth_m: the robot has a depth sensor");
     Require(!estimator.floor.use || estimator.noise.floor_height_m > 0.0, path + "/floor/use",
             "a positive noise floor_height_m beside it");
   }
