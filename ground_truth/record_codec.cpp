@@ -197,6 +197,7 @@ Truth DecodeTruth(RowDecoder& row, int wheels) {
   GetPose(truth, row);
   truth.w_WB_B = row.Vector();
   GetBiases(truth, row);
+  truth.has_biases = truth.gyro_bias_rad_s.allFinite() && truth.accel_bias_m_s2.allFinite();
   truth.wheel_rate_rad_s.resize(wheels);
   truth.wheel_slip_m_s.resize(wheels);
   truth.wheel_load_n.resize(wheels);

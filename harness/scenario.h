@@ -105,6 +105,8 @@ struct NominalConfig {
 struct Scenario {
   int schema = 1;
   std::string description;
+  std::string log;        ///< a folder with a log that stands in for the simulator; empty: none
+  std::string recording;  ///< likewise one of our own recordings
   std::string robot = "husky";
   double duration_s = 60.0;
   std::uint64_t seed = 1;

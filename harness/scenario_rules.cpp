@@ -50,6 +50,15 @@ class Rules {
     CheckExpectations();
   }
 
+  void RunLog() const {
+    for (const auto& [name, estimator] : s_.estimators) {
+      CheckEstimator(name, estimator);
+      Require(estimator.noise_source != NoiseSource::kMatched, "/estimators/" + name + "/noise",
+              "nominal or numbers: the true noise of a log is not known");
+    }
+    CheckExpectations();
+  }
+
  private:
   /// Where the value at `path` was written, or else what holds it.
   Location Where(std::string path) const {
@@ -348,6 +357,10 @@ class Rules {
 void CheckScenario(const Scenario& scenario, const models::UrdfRobot& urdf,
                    const std::string& base_link, const YamlNode& root, Problems& problems) {
   Rules(scenario, root, problems).Run(urdf, base_link);
+}
+
+void CheckLogScenario(const Scenario& scenario, const YamlNode& root, Problems& problems) {
+  Rules(scenario, root, problems).RunLog();
 }
 
 }  // namespace reckon::harness
