@@ -14,7 +14,7 @@ namespace {
 std::string_view Trimmed(std::string_view text) {
   constexpr std::string_view kBlank = " \t\r";
   const auto first = text.find_first_not_of(kBlank);
-  if (first == std::string_view::npos) return {};
+  if (first == std::string_view::npos) return text.substr(0, 0);  // it keeps its place
   return text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 

@@ -178,6 +178,19 @@ TEST_P(History, StartsAgainBeyondAGapTooLongToBridge) {
   EXPECT_EQ(wheels.corrections()[0].decision, Decision::kAccepted);
 }
 
+TEST_P(History, StaticInitialisationTakesTheTimeOfTheSamplesNotOfThePrior) {
+  setup_.initialisation = {InitialisationKind::kStatic, 0.1};
+  auto filter = Make(GetParam(), setup_, TestPrior());
+  const TimeNs epoch = 1'700'000'000 * models::kNsPerSecond;
+  EXPECT_EQ(filter->Process(RestingImu(epoch)).refusal, Refusal::kGap) << "one may be a glitch";
+  EXPECT_EQ(filter->Process(RestingImu(5 * kMs)).refusal, Refusal::kNotInitialised);
+  for (TimeNs t = epoch + 5 * kMs; t <= epoch + 200 * kMs; t += 5 * kMs) {
+    (void)filter->Process(RestingImu(t));
+  }
+  ASSERT_TRUE(filter->Belief());
+  EXPECT_EQ(filter->Belief()->t_ns, epoch + 200 * kMs);
+}
+
 TEST_P(History, ASingleStampFromFarAheadChangesNothing) {
   auto filter = Make(GetParam(), setup_, prior_);
   for (TimeNs t = 5 * kMs; t <= 2000 * kMs; t += 5 * kMs) {
