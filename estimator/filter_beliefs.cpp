@@ -39,6 +39,12 @@ ProcessNoise Squared(const Setup& setup) {
   return squared;
 }
 
+/// Both IMUs' biases are believed to be alike.
+GyroFilterNoise StageNoise(const GyroFilter& told, const ProcessNoise& noise, double period_s) {
+  const double sigma = told.bias_sigma_rad_s;
+  return {noise.gyro / period_s, 2.0 * noise.gyro_walk, 2.0 * sigma * sigma};
+}
+
 std::vector<models::Pose> FramesInI(const models::Suite& suite, SensorId imu,
                                     std::optional<SensorId> wheels) {
   std::vector<models::Pose> frames;
@@ -59,6 +65,7 @@ FilterBeliefs::FilterBeliefs(const Setup& told)
       period_ns(told.suite.sensors[imu].period_ns),
       R_BS_imu(told.suite.sensors[imu].X_BS.R),
       p_BI(told.suite.sensors[imu].X_BS.p) {
+  stage_noise = StageNoise(told.gyro_filter, noise, models::Seconds(period_ns));
   const models::Suite& suite = told.suite;
   if (suite.wheels) wheels = suite.Find(suite.wheels->encoders);
   if (suite.legs) {

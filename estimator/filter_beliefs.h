@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "reckon/estimator/gate.h"
+#include "reckon/estimator/gyro_filter.h"
 #include "reckon/estimator/navigation_state.h"
 #include "reckon/estimator/setup.h"
 
@@ -20,6 +21,7 @@ struct FilterBeliefs {
   Setup setup;
   InnovationGate gate;
   ProcessNoise noise;
+  GyroFilterNoise stage_noise;
   Eigen::Vector3d gravity;
   models::SensorId imu;
   models::TimeNs period_ns;

@@ -33,15 +33,6 @@ constexpr TimeNs kLongestStep = 50'000'000;
 constexpr double kSaturatedFactor = 100.0;
 /// A foot that is more probably in contact than not stands.
 constexpr double kStands = 0.5;
-GyroFilterNoise StageNoise(const FilterBeliefs& beliefs) {
-  GyroFilterNoise noise;
-  noise.white = beliefs.noise.gyro / models::Seconds(beliefs.period_ns);
-  noise.walk = 2.0 * beliefs.noise.gyro_walk;
-  const double sigma = beliefs.setup.gyro_filter.bias_sigma_rad_s;
-  noise.difference = 2.0 * sigma * sigma;
-  return noise;
-}
-
 double LargestSigma(const LaneMatrix& P) {
   return std::sqrt(std::max({P(0, 0), P(1, 1), P(2, 2)}));
 }
@@ -74,7 +65,7 @@ void Forget(ErrorCovariance& P, ErrorBlock block) {
 template <class Core>
 InOrderFilter<Core>::InOrderFilter(const FilterBeliefs& beliefs)
     : beliefs_(&beliefs),
-      stage_(StageNoise(beliefs)),
+      stage_(beliefs.stage_noise),
       rest_(beliefs.setup.noise, models::Seconds(beliefs.period_ns), beliefs.setup.gravity_m_s2) {}
 
 template <class Core>

@@ -167,7 +167,9 @@ void AddSensor(Metrics& metrics, const Track& track, models::SensorId id, const 
     metrics.Add({decision + "_" + name + "_count", static_cast<double>(counts.decisions[i]), true,
                  "count", "corrections that were " + decision});
   }
-  for (std::size_t i = 1; i + 1 < kRefusals; ++i) {  // neither `none` nor `unused`
+  for (std::size_t i = 0; i < kRefusals; ++i) {
+    const auto refusal = static_cast<estimator::Refusal>(i);
+    if (refusal == estimator::Refusal::kNone || refusal == estimator::Refusal::kUnused) continue;
     const std::string reason(RefusalNames()[i]);
     metrics.Add({"refused_" + name + "_" + reason + "_count",
                  static_cast<double>(counts.refusals[i]), true, "count",

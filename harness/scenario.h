@@ -35,6 +35,11 @@ struct EstimatorConfig {
   estimator::Noise noise;  ///< resolved numbers, whatever their source
   estimator::Gate gate;
   estimator::Initialisation initialisation;
+  int iterations = 4;      ///< iterated_inekf: of a correction, at most
+  double history_s = 0.5;  ///< how late a measurement can be and still be used at its own time
+  estimator::Standstill standstill;
+  estimator::FlatFloor floor;
+  estimator::GyroFilter gyro_filter;
   bool estimate_gyro_bias = true;
   bool estimate_accel_bias = true;
   std::vector<std::string> sensors;  ///< those that it is given; empty: all
