@@ -1,5 +1,16 @@
 #pragma once
 
+// An installed library says which lanes it was built with: its users must have the same.
+#if !defined(RECKON_AVX_LANES)
+#if defined(__AVX__)
+#define RECKON_AVX_LANES 1
+#else
+#define RECKON_AVX_LANES 0
+#endif
+#elif RECKON_AVX_LANES && !defined(__AVX__)
+#error "reckon was built with AVX, so this must be too (-mavx or -march)"
+#endif
+
 namespace reckon::estimator {
 
 /// Four doubles that move together: a 3-vector and a padding number that nobody reads. One AVX
@@ -12,7 +23,7 @@ class Lane {
   Lane(double x, double y, double z) : Lane(x, y, z, 0.0) {}
   static Lane All(double s) { return {s, s, s, s}; }
 
-#if defined(__AVX__)
+#if RECKON_AVX_LANES
   double operator[](int i) const { return v_[i]; }
 
   Lane& operator+=(Lane b) { return v_ += b.v_, *this; }
