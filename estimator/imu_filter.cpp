@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "reckon/estimator/pose_prior.h"
 #include "reckon/estimator/sample_checks.h"
@@ -60,6 +62,7 @@ void ImuFilter<Core>::Start(const Prior& prior) {
   beyond_.Restart();
   started_ = false;
   newest_imu_ns_ = prior.t_ns;
+  last_heard_ns_ = std::numeric_limits<TimeNs>::max();
   static_.Start(prior);
   if (beliefs_.setup.initialisation.kind != InitialisationKind::kPrior) return;
   NavigationState x;
@@ -120,9 +123,14 @@ void ImuFilter<Core>::Initialise(const Measurement& measurement, Report& report)
 template <class Core>
 void ImuFilter<Core>::InitialiseFromImu(const Measurement& measurement, Report& report) {
   const TimeNs t_ns = measurement.valid_ns;
-  report.refusal = t_ns <= newest_imu_ns_                ? Refusal::kBackwards
-                   : t_ns - newest_imu_ns_ > kLongestGap ? Refusal::kGap
-                                                         : Refusal::kNotInitialised;
+  const TimeNs since_ns = t_ns - newest_imu_ns_;
+  report.refusal = since_ns <= 0             ? Refusal::kBackwards
+                   : since_ns <= kLongestGap ? Refusal::kNotInitialised
+                                             : Refusal::kGap;
+  // A prior of another time is no gap; a second sample confirms the new one.
+  const TimeNs last_ns = std::exchange(last_heard_ns_, t_ns);
+  const bool goes_on = t_ns > last_ns && t_ns - last_ns <= kLongestGap;
+  if (report.refusal == Refusal::kGap && goes_on) report.refusal = Refusal::kNotInitialised;
   if (report.refusal != Refusal::kNotInitialised) return;
   newest_imu_ns_ = t_ns;
   if (beliefs_.setup.initialisation.kind == InitialisationKind::kPose) {

@@ -81,6 +81,7 @@ class ImuFilter final : public Estimator {
   Place next_ = 0;                    ///< what is not in `now_` yet
   Ring<Moment> moments_;              ///< oldest first
   models::TimeNs newest_imu_ns_ = 0;  ///< while there is no state, or beyond a long gap
+  models::TimeNs last_heard_ns_ = 0;  ///< of the IMU while there is no state, used or not
   RestAverage beyond_;                ///< of samples beyond a gap too long to bridge
 };
 

@@ -11,8 +11,23 @@ foreach(scenario IN LISTS scenarios)
              COMMAND reckon run "${file}" --out "${PROJECT_BINARY_DIR}/scenario_results" --quiet)
     set_tests_properties("scenario.${name}" PROPERTIES LABELS scenario TIMEOUT 600
                          SKIP_RETURN_CODE 77)
+    if(name MATCHES "^logs/")
+      set_tests_properties("scenario.${name}" PROPERTIES FIXTURES_REQUIRED "log_${name}")
+    endif()
   endif()
 endforeach()
+
+# The log that is not ours to keep: made from where it lies, beside the sources or wherever
+# RECKON_HOLOOCEAN_LOG says, and skipped where it is not.
+set(RECKON_HOLOOCEAN_LOG "${PROJECT_SOURCE_DIR}/../shared/data/auv_holoocean/log.txt" CACHE FILEPATH
+    "The published log that examples/holoocean_log/convert.py reads")
+add_test(NAME logs.holoocean_auv
+         COMMAND "${CMAKE_COMMAND}" -DPYTHON=${RECKON_PYTHON} "-DLOG=${RECKON_HOLOOCEAN_LOG}"
+                 "-DCONVERT=${PROJECT_SOURCE_DIR}/examples/holoocean_log/convert.py"
+                 "-DFOLDER=${PROJECT_SOURCE_DIR}/out/logs/holoocean_auv"
+                 -P "${CMAKE_CURRENT_SOURCE_DIR}/convert_log.cmake")
+set_tests_properties(logs.holoocean_auv PROPERTIES LABELS scenario
+                     FIXTURES_SETUP "log_logs/holoocean_auv")
 
 # And every scenario of ours fails when something is broken on purpose: the lines of mutations.txt.
 set(mutations "${CMAKE_CURRENT_SOURCE_DIR}/mutations.txt")
@@ -29,6 +44,11 @@ foreach(line IN LISTS lines)
                      "-DOUT=${PROJECT_BINARY_DIR}/scenario_results/mutated"
                      -P "${CMAKE_CURRENT_SOURCE_DIR}/mutation.cmake")
     set_tests_properties("scenario.${CMAKE_MATCH_1}.fails_with.${CMAKE_MATCH_2}"
-                         PROPERTIES LABELS scenario TIMEOUT 600)
+                         PROPERTIES LABELS scenario TIMEOUT 600
+                         SKIP_REGULAR_EXPRESSION "skipped: there is no log")
+    if(CMAKE_MATCH_1 MATCHES "^logs/")
+      set_tests_properties("scenario.${CMAKE_MATCH_1}.fails_with.${CMAKE_MATCH_2}"
+                           PROPERTIES FIXTURES_REQUIRED "log_${CMAKE_MATCH_1}")
+    endif()
   endif()
 endforeach()
