@@ -37,18 +37,18 @@ string(REPLACE ";" "\\;" lines "${lines}")
 string(REGEX MATCHALL "[^\n]+" lines "${lines}")
 foreach(line IN LISTS lines)
   if(line MATCHES "^([a-z_/0-9]+) \\| ([a-z_0-9]+) \\| (.*)$")
-    add_test(NAME "scenario.${CMAKE_MATCH_1}.fails_with.${CMAKE_MATCH_2}"
+    set(scenario "${CMAKE_MATCH_1}")
+    set(test "scenario.${scenario}.fails_with.${CMAKE_MATCH_2}")
+    add_test(NAME "${test}"
              COMMAND "${CMAKE_COMMAND}" -DCODE=1 "-DPROGRAM=$<TARGET_FILE:reckon>"
-                     "-DSCENARIO=${PROJECT_SOURCE_DIR}/scenarios/${CMAKE_MATCH_1}.yaml"
+                     "-DSCENARIO=${PROJECT_SOURCE_DIR}/scenarios/${scenario}.yaml"
                      "-DARGUMENTS=${CMAKE_MATCH_3}"
                      "-DOUT=${PROJECT_BINARY_DIR}/scenario_results/mutated"
                      -P "${CMAKE_CURRENT_SOURCE_DIR}/mutation.cmake")
-    set_tests_properties("scenario.${CMAKE_MATCH_1}.fails_with.${CMAKE_MATCH_2}"
-                         PROPERTIES LABELS scenario TIMEOUT 600
+    set_tests_properties("${test}" PROPERTIES LABELS scenario TIMEOUT 600
                          SKIP_REGULAR_EXPRESSION "skipped: there is no log")
-    if(CMAKE_MATCH_1 MATCHES "^logs/")
-      set_tests_properties("scenario.${CMAKE_MATCH_1}.fails_with.${CMAKE_MATCH_2}"
-                           PROPERTIES FIXTURES_REQUIRED "log_${CMAKE_MATCH_1}")
+    if(scenario MATCHES "^logs/")
+      set_tests_properties("${test}" PROPERTIES FIXTURES_REQUIRED "log_${scenario}")
     endif()
   endif()
 endforeach()

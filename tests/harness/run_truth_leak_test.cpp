@@ -33,6 +33,7 @@ Streams Replayed(const std::filesystem::path& recording, const Scenario& scenari
     }
   }
   for (const auto& [name, config] : scenario.estimators) plan.estimators.push_back(name);
+  plan.truth = false;
   ground_truth::RunRecorder recorder(to, plan);
   ReplayExperiment replay(scenario, LoadRobot(scenario).nominal,
                           std::make_unique<RecordingLog>(recording), &recorder);
