@@ -32,6 +32,7 @@ std::vector<std::size_t> FindAll(const CsvTable& table, const std::vector<std::s
 
 std::vector<std::string> Named(const std::vector<std::string>& names, const std::string& suffix) {
   std::vector<std::string> full;
+  full.reserve(names.size());
   for (const std::string& name : names) full.push_back(name + suffix);
   return full;
 }
@@ -52,6 +53,7 @@ TimeColumn NeedTime(const CsvTable& table, const std::string& name) {
 std::optional<Columns3> Find3(const CsvTable& table, const std::string& prefix,
                               const std::string& suffix) {
   std::vector<std::string> names;
+  names.reserve(kAxes.size());
   for (const char* axis : kAxes) names.push_back(prefix + axis + suffix);
   const auto places = FindAll(table, names);
   if (places.empty()) return std::nullopt;

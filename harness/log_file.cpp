@@ -116,6 +116,7 @@ class LogRules {
 std::vector<int> Entries(const std::vector<std::string>& wheels,
                          const std::vector<std::string>& channels) {
   std::vector<int> entries;
+  entries.reserve(wheels.size());
   for (const std::string& wheel : wheels) {
     entries.push_back(
         static_cast<int>(std::find(channels.begin(), channels.end(), wheel) - channels.begin()));

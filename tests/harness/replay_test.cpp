@@ -35,8 +35,8 @@ TEST(Replay, OfARunGivesItsScoresAgain) {
 TEST(Replay, TakesOtherEstimatorsOverTheSameMeasurements) {
   const TemporaryFolder folder;
   const auto run = RunIn(folder / "out", BusyScenario());
-  const RunResult other =
-      RunReplay(run, folder / "out", {"estimators.biased={type: inekf, estimate_gyro_bias: false}"});
+  const RunResult other = RunReplay(run, folder / "out",
+                                    {"estimators.biased={type: inekf, estimate_gyro_bias: false}"});
   ASSERT_EQ(other.scores.size(), 4u);
   EXPECT_EQ(testing::Bytes(run / "riekf.tum"), testing::Bytes(other.folder / "riekf.tum"));
   EXPECT_TRUE(testing::Bytes(run / "riekf.tum") != testing::Bytes(other.folder / "biased.tum"));
