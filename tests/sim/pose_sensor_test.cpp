@@ -56,7 +56,7 @@ TEST(PoseSensor, NoiseMatchesTheSigmasThatItDelivers) {
     const Eigen::Vector3d turn = RotationLog(sample.X_WS.R * X_BS.R.transpose());
     for (int i = 0; i < 3; ++i) {
       x[static_cast<std::size_t>(i)].push_back(sample.X_WS.p[i] - X_BS.p[i]);
-      x[static_cast<std::size_t>(3 + i)].push_back(turn[i]);
+      x[3 + static_cast<std::size_t>(i)].push_back(turn[i]);
     }
   }
   using namespace testing_sim;
