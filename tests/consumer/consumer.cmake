@@ -61,9 +61,14 @@ function(build_project folder)
       "-DCMAKE_BUILD_TYPE=${BUILD_TYPE}" "-DCMAKE_CXX_FLAGS=${FLAGS}"
       "-DCMAKE_PREFIX_PATH=${prefix}" -DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF ${ARGN})
   run(ignored "${CMAKE_COMMAND}" --build "${project}/build")
-  # Where its headers came from.
+  # Where its headers came from. A compiler cache may have made the paths relative to the build.
   run(dependencies ninja -C "${project}/build" -t deps)
-  string(REGEX MATCHALL "[^ \n]+/reckon/(models|estimator)/[^\n]+" headers "${dependencies}")
+  string(REGEX MATCHALL "[^ \n]+/reckon/(models|estimator)/[^\n]+" paths "${dependencies}")
+  set(headers)
+  foreach(path IN LISTS paths)
+    get_filename_component(header "${path}" ABSOLUTE BASE_DIR "${project}/build")
+    list(APPEND headers "${header}")
+  endforeach()
   expect_no_source("a header of ${name}" "${headers}")
   expect("${name}'s headers" "${headers}" "${prefix}/include/reckon/estimator/registry\\.h")
 endfunction()
