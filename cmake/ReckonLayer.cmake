@@ -8,17 +8,21 @@ function(_reckon_link from to)
   file(CREATE_LINK "${from}" "${to}" SYMBOLIC)
 endfunction()
 
-# reckon_layer(<name> SEES <targets whose headers it may include, and so may its users>
+# reckon_layer(<name> [INSTALL] SEES <targets whose headers it may include, and so may its users>
 #              USES <libraries that only its sources see>)
+# INSTALL: other projects can have it, as reckon::<name> (see ReckonInstall.cmake).
 function(reckon_layer name)
-  cmake_parse_arguments(ARG "" "" "SEES;USES" ${ARGN})
+  cmake_parse_arguments(ARG "INSTALL" "" "SEES;USES" ${ARGN})
   set(root "${PROJECT_BINARY_DIR}/include/${name}")
   _reckon_link("${PROJECT_SOURCE_DIR}/${name}" "${root}/reckon/${name}")
   file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${name}/*.cpp")
   list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
   add_library(reckon_${name} STATIC ${sources})
-  target_include_directories(reckon_${name} PUBLIC "${root}")
+  target_include_directories(reckon_${name} PUBLIC "$<BUILD_INTERFACE:${root}>")
   target_link_libraries(reckon_${name} PUBLIC ${ARG_SEES} PRIVATE ${ARG_USES})
+  if(ARG_INSTALL)
+    reckon_install_layer(${name})
+  endif()
 endfunction()
 
 # reckon_headers(<name> FROM <layer> FILES <headers> SEES <targets>): a few headers of a layer, for a

@@ -28,16 +28,26 @@ template <class Body>
 [[gnu::always_inline]] inline void WithConstant(Slot slot, const Body& body) {
   static_assert(kSlots == 9);
   switch (static_cast<int>(slot)) {
-    case kThetaSlot: return body(kThetaSlot);
-    case kVelocitySlot: return body(kVelocitySlot);
-    case kPositionSlot: return body(kPositionSlot);
-    case FootSlot(0): return body(FootSlot(0));
-    case FootSlot(1): return body(FootSlot(1));
-    case FootSlot(2): return body(FootSlot(2));
-    case FootSlot(3): return body(FootSlot(3));
-    case kGyroBiasSlot: return body(kGyroBiasSlot);
-    case kAccelBiasSlot: return body(kAccelBiasSlot);
-    default: assert(false);
+    case kThetaSlot:
+      return body(kThetaSlot);
+    case kVelocitySlot:
+      return body(kVelocitySlot);
+    case kPositionSlot:
+      return body(kPositionSlot);
+    case FootSlot(0):
+      return body(FootSlot(0));
+    case FootSlot(1):
+      return body(FootSlot(1));
+    case FootSlot(2):
+      return body(FootSlot(2));
+    case FootSlot(3):
+      return body(FootSlot(3));
+    case kGyroBiasSlot:
+      return body(kGyroBiasSlot);
+    case kAccelBiasSlot:
+      return body(kAccelBiasSlot);
+    default:
+      assert(false);
   }
 }
 
@@ -78,9 +88,8 @@ class SlotLoops {
   /// body(i, j) for every pair i ≤ j, column by column: what a body reads of j stays in registers.
   template <class Body>
   [[gnu::always_inline]] void ForEachPair(const Body& body) const {
-    ForEach([&](Slot j) RECKON_INLINED {
-      ForEachUpTo(j, [&](Slot i) RECKON_INLINED { body(i, j); });
-    });
+    ForEach([&](Slot j)
+                RECKON_INLINED { ForEachUpTo(j, [&](Slot i) RECKON_INLINED { body(i, j); }); });
   }
 
  private:

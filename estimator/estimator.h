@@ -25,6 +25,14 @@ class Estimator {
   /// The belief at the stamp of the newest propagation; nothing before initialisation has finished.
   /// Does not allocate.
   virtual std::optional<Estimate> Belief() const = 0;
+
+  /// The belief at any time: between two measurements of the past, or, ahead of the newest, with
+  /// its motion held and less trust the longer that is. Nothing if it is not known any more, or if
+  /// this estimator keeps no history and the time is not that of `Belief`. Does not allocate.
+  virtual std::optional<Estimate> BeliefAt(models::TimeNs t_ns) const {
+    const std::optional<Estimate> now = Belief();
+    return now && now->t_ns == t_ns ? now : std::nullopt;
+  }
 };
 
 }  // namespace reckon::estimator

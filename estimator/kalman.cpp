@@ -91,14 +91,12 @@ template <class Slots>
                                                                      const Slots slots) const {
   Strips<kRows> K, T;
   slots.ForEach([&](Slot i) RECKON_INLINED { K[i] = C_[i] * S_inverse_; });
-  slots.ForEachPair([&](Slot i, Slot j) RECKON_INLINED {
-    SubtractTimesTransposed(P(i, j), C_[i], K[j]);
-  });
+  slots.ForEachPair([&](Slot i, Slot j)
+                        RECKON_INLINED { SubtractTimesTransposed(P(i, j), C_[i], K[j]); });
   SetProduct(T, P, m_, slots);
   slots.ForEach([&](Slot i) RECKON_INLINED { T[i] -= K[i] * N_; });
-  slots.ForEachPair([&](Slot i, Slot j) RECKON_INLINED {
-    SubtractTimesTransposed(P(i, j), T[i], K[j]);
-  });
+  slots.ForEachPair([&](Slot i, Slot j)
+                        RECKON_INLINED { SubtractTimesTransposed(P(i, j), T[i], K[j]); });
   slots.ForEach([&](Slot i) RECKON_INLINED { P(i, i) = Symmetric(P(i, i)); });
 }
 

@@ -1,6 +1,17 @@
 #pragma once
 
+// An installed library says which lanes it was built with: its users must have the same.
+#if !defined(RECKON_AVX2_LANES)
 #if defined(__AVX2__)
+#define RECKON_AVX2_LANES 1
+#else
+#define RECKON_AVX2_LANES 0
+#endif
+#elif RECKON_AVX2_LANES && !defined(__AVX2__)
+#error "reckon was built with AVX2, so this must be too (-mavx2 or -march)"
+#endif
+
+#if RECKON_AVX2_LANES
 #include <immintrin.h>
 #else
 #include <cstring>
@@ -17,7 +28,7 @@ class Lane {
   Lane() = default;
   static Lane Zero() { return All(0.0); }
 
-#if defined(__AVX2__)
+#if RECKON_AVX2_LANES
   Lane(double x, double y, double z) : v_{x, y, z, z} {}
   static Lane All(double s) { return Lane(Four{s, s, s, s}); }
   /// Of three numbers that lie in a row.
@@ -75,9 +86,7 @@ class Lane {
   Lane operator-() const { return Lane(-low_, -high_); }
 
   /// (y, z, x).
-  Lane Rotated() const {
-    return Lane(Two{low_[1], high_[0]}, Two{low_[0], high_[0]});
-  }
+  Lane Rotated() const { return Lane(Two{low_[1], high_[0]}, Two{low_[0], high_[0]}); }
 
   /// The columns of a 3×3 matrix become its rows.
   static void Transpose(Lane& a, Lane& b, Lane& c) {

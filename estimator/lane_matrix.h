@@ -45,8 +45,12 @@ struct LaneMatrix {
   }
 };
 
-[[gnu::always_inline]] inline LaneMatrix operator+(LaneMatrix A, const LaneMatrix& B) { return A += B; }
-[[gnu::always_inline]] inline LaneMatrix operator-(LaneMatrix A, const LaneMatrix& B) { return A -= B; }
+[[gnu::always_inline]] inline LaneMatrix operator+(LaneMatrix A, const LaneMatrix& B) {
+  return A += B;
+}
+[[gnu::always_inline]] inline LaneMatrix operator-(LaneMatrix A, const LaneMatrix& B) {
+  return A -= B;
+}
 [[gnu::always_inline]] inline LaneMatrix operator*(double s, LaneMatrix A) {
   for (Lane& column : A.column) column *= Lane::All(s);
   return A;
@@ -84,7 +88,8 @@ struct LaneMatrix {
 }
 
 /// C += A Bᵀ. Summed beside C, column by column: C might be A or B as far as a compiler can tell.
-[[gnu::always_inline]] inline void AddTimesTransposed(LaneMatrix& C, const LaneMatrix& A, const LaneMatrix& B) {
+[[gnu::always_inline]] inline void AddTimesTransposed(LaneMatrix& C, const LaneMatrix& A,
+                                                      const LaneMatrix& B) {
   for (int j = 0; j < 3; ++j) {
     Lane sum = C.column[j];
     for (int k = 0; k < 3; ++k) sum += B(j, k) * A.column[k];
@@ -93,7 +98,8 @@ struct LaneMatrix {
 }
 
 /// C −= A Bᵀ.
-[[gnu::always_inline]] inline void SubtractTimesTransposed(LaneMatrix& C, const LaneMatrix& A, const LaneMatrix& B) {
+[[gnu::always_inline]] inline void SubtractTimesTransposed(LaneMatrix& C, const LaneMatrix& A,
+                                                           const LaneMatrix& B) {
   for (int j = 0; j < 3; ++j) {
     Lane sum = C.column[j];
     for (int k = 0; k < 3; ++k) sum -= B(j, k) * A.column[k];
@@ -102,10 +108,14 @@ struct LaneMatrix {
 }
 
 /// a bᵀ.
-[[gnu::always_inline]] inline LaneMatrix TimesTransposed(Lane a, Lane b) { return {b[0] * a, b[1] * a, b[2] * a}; }
+[[gnu::always_inline]] inline LaneMatrix TimesTransposed(Lane a, Lane b) {
+  return {b[0] * a, b[1] * a, b[2] * a};
+}
 
 /// C −= a bᵀ.
-[[gnu::always_inline]] inline void SubtractTimesTransposed(LaneMatrix& C, Lane a, Lane b) { C -= TimesTransposed(a, b); }
+[[gnu::always_inline]] inline void SubtractTimesTransposed(LaneMatrix& C, Lane a, Lane b) {
+  C -= TimesTransposed(a, b);
+}
 
 [[gnu::always_inline]] inline LaneMatrix operator-(LaneMatrix A) {
   for (Lane& column : A.column) column = -column;
@@ -125,19 +135,24 @@ struct CrossProduct {
   return Cross(cross.v, A);
 }
 /// A [v]×ᵀ.
-[[gnu::always_inline]] inline LaneMatrix TimesTransposed(const LaneMatrix& A, const CrossProduct& cross) {
+[[gnu::always_inline]] inline LaneMatrix TimesTransposed(const LaneMatrix& A,
+                                                         const CrossProduct& cross) {
   const Lane a = A.column[0], b = A.column[1], c = A.column[2];
   const Lane x = Lane::All(cross.v[0]), y = Lane::All(cross.v[1]), z = Lane::All(cross.v[2]);
   return {y * c - z * b, z * a - x * c, x * b - y * a};
 }
 
 /// A s.
-[[gnu::always_inline]] inline LaneMatrix TimesTransposed(const LaneMatrix& A, double s) { return s * A; }
+[[gnu::always_inline]] inline LaneMatrix TimesTransposed(const LaneMatrix& A, double s) {
+  return s * A;
+}
 
 /// What the above are of a measurement of one row, where a matrix beside it shrinks to a number and
 /// a strip to a vector: one text serves both.
 [[gnu::always_inline]] inline Lane operator*(Lane a, double s) { return s * a; }
-[[gnu::always_inline]] inline Lane TimesTransposed(const LaneMatrix& A, Lane row) { return A * row; }
+[[gnu::always_inline]] inline Lane TimesTransposed(const LaneMatrix& A, Lane row) {
+  return A * row;
+}
 [[gnu::always_inline]] inline double Symmetric(double s) { return s; }
 [[gnu::always_inline]] inline double Dot(double a, double b) { return a * b; }
 inline Eigen::Matrix<double, 1, 1> ToEigen(double s) { return Eigen::Matrix<double, 1, 1>(s); }

@@ -14,12 +14,16 @@ std::unique_ptr<Estimator> Make(const Setup& setup) {
 }
 
 std::unique_ptr<Estimator> MakeInvariant(const Setup& setup) {
-  if (setup.error == ErrorForm::kLeftInvariant) return Make<ImuFilter<LeftInvariantEkf>>(setup);
-  return Make<ImuFilter<RightInvariantEkf>>(setup);
+  Setup once = setup;
+  once.iterations = 1;
+  if (setup.error == ErrorForm::kLeftInvariant) return Make<ImuFilter<LeftInvariantEkf>>(once);
+  return Make<ImuFilter<RightInvariantEkf>>(once);
 }
 
-constexpr std::array<RegistryEntry, 3> kEntries{{
+constexpr std::array<RegistryEntry, 4> kEntries{{
     {"inekf", "Invariant EKF with IMU biases, right- or left-invariant", MakeInvariant},
+    {"iterated_inekf", "Right-invariant EKF that repeats each correction from its own result",
+     Make<ImuFilter<RightInvariantEkf>>},
     {"mekf", "Multiplicative EKF, the classical baseline: same inputs, noise and gates",
      Make<ImuFilter<MultiplicativeEkf>>},
     {"odometry", "Planar wheel odometry without covariance", Make<WheelOdometry>},

@@ -39,7 +39,7 @@ std::string_view Name(Decision decision);
 std::string_view Name(Refusal refusal);
 
 inline constexpr int kMaxRows = 3;
-inline constexpr int kMaxCorrections = 8;
+inline constexpr int kMaxCorrections = 16;
 
 /// One correction as it was computed: innovation z, its covariance S and NIS = zᵀS⁻¹z, before any
 /// gate changed it. Only the first `rows` entries count. The axes are those in which the filter
@@ -65,6 +65,7 @@ class [[nodiscard]] Report {
   Refusal refusal = Refusal::kNone;  ///< the measurement as a whole, an IMU sample included
   bool propagated = false;           ///< the state's time moved
   models::TimeNs bridged_ns = 0;     ///< time without IMU samples that was bridged
+  bool reanchored = false;           ///< after a gap too long to bridge the filter started again
 
  private:
   std::array<Correction, kMaxCorrections> corrections_;

@@ -86,6 +86,7 @@ struct FlatFloor {
 /// The stage that refines the angular rate before it moves the filter.
 struct GyroFilter {
   std::string source;  ///< the sensor beside the IMU: another IMU, or the wheels; empty: no stage
+  double bias_sigma_rad_s = 1e-2;  ///< turn-on bias of that other IMU, each axis
 };
 
 /// Everything that a filter is told before its first measurement: beliefs only.

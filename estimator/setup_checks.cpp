@@ -19,6 +19,38 @@ void CheckSide(const std::vector<int>& entries, const std::string& side) {
   }
 }
 
+bool Has(const models::Suite& suite, const std::string& sensor, models::SensorKind kind) {
+  const auto id = suite.Find(sensor);
+  return id && suite.sensors[*id].kind == kind;
+}
+
+void CheckLegs(const Setup& setup) {
+  const models::Suite& suite = setup.suite;
+  const models::LegSet& legs = *suite.legs;
+  Require(!legs.legs.empty() && legs.legs.size() <= models::kMaxFeet,
+          "a robot has 1 to " + std::to_string(models::kMaxFeet) + " legs");
+  Require(Has(suite, legs.encoders, models::SensorKind::kEncoders),
+          "the legs' encoders `" + legs.encoders + "` are no encoders of the suite");
+  Require(Has(suite, legs.contacts, models::SensorKind::kContacts),
+          "the legs' contacts `" + legs.contacts + "` are no contact sensor of the suite");
+  Require(setup.noise.joint_angle_rad > 0.0 || setup.noise.foot_position_m > 0.0,
+          "legs need a positive joint_angle_rad or foot_position_m");
+}
+
+void CheckGyroSource(const Setup& setup) {
+  const models::Suite& suite = setup.suite;
+  const std::string& source = setup.gyro_filter.source;
+  const bool wheels = suite.wheels && suite.wheels->encoders == source;
+  Require(wheels || Has(suite, source, models::SensorKind::kImu),
+          "the gyro filter's source `" + source + "` is neither an IMU nor the wheels' encoders");
+  const double sigma = setup.gyro_filter.bias_sigma_rad_s;
+  Require(std::isfinite(sigma) && sigma >= 0.0, "bias_sigma_rad_s must not be negative");
+  Require(!wheels || setup.noise.wheel_yaw_rate_rad_per_s > 0.0,
+          "a gyro filter with wheels needs a positive wheel_yaw_rate_rad_per_s");
+  Require(!wheels || suite.wheels->effective_track_m > 0.0,
+          "a gyro filter with wheels needs a positive effective track");
+}
+
 }  // namespace
 
 void CheckSetup(const Setup& setup) {
@@ -33,7 +65,18 @@ void CheckSetup(const Setup& setup) {
   Require(setup.initialisation.kind != InitialisationKind::kStatic ||
               (std::isfinite(rest) && rest > 0.0),
           "static_duration_s must be positive");
+  Require(std::isfinite(setup.history_s) && setup.history_s >= 0.0 && setup.history_s <= 60.0,
+          "history_s must lie between 0 and 60");
+  Require(setup.iterations >= 1, "iterations must be at least 1");
+  Require(!setup.standstill.use ||
+              (setup.standstill.window_s > 0.0 && setup.noise.standstill_m_per_s > 0.0),
+          "standstill needs a positive window_s and a positive standstill_m_per_s");
+  Require(
+      !setup.floor.use || (std::isfinite(setup.floor.height_m) && setup.noise.floor_height_m > 0.0),
+      "floor needs a finite height_m and a positive floor_height_m");
   if (setup.suite.wheels) CheckDrive(setup.suite);
+  if (setup.suite.legs) CheckLegs(setup);
+  if (!setup.gyro_filter.source.empty()) CheckGyroSource(setup);
 }
 
 void CheckDrive(const models::Suite& suite) {

@@ -11,21 +11,8 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Samples before the scatter says anything.
-constexpr int kFewestSamples = 10;
-/// Scatter beyond this many believed sigmas, plus a floor for quantisation and a running engine,
-/// is motion.
-constexpr double kScatterFactor = 3.0;
-constexpr double kGyroFloor = 5e-3;   ///< rad/s
-constexpr double kAccelFloor = 5e-2;  ///< m/s²
-/// A mean further from what the prior allows than this many sigmas is motion.
-constexpr double kPriorSigmas = 6.0;
-constexpr double kWheelFloor = 0.02;  ///< rad/s
 /// What is left of the velocity of a robot that passed all tests.
 constexpr double kRestVelocity = 5e-3;  ///< m/s
-
-/// Sample variance of one axis at most.
-double Largest(const Vector3d& squares, int n) { return squares.maxCoeff() / (n - 1); }
 
 double LargestSigma(const ErrorCovariance& P, ErrorBlock block) {
   return std::sqrt(P.diagonal().segment<3>(block).maxCoeff());
@@ -34,56 +21,35 @@ double LargestSigma(const ErrorCovariance& P, ErrorBlock block) {
 }  // namespace
 
 StaticInitialiser::StaticInitialiser(const Setup& setup, double imu_period_s)
-    : setup_(setup),
-      gyro_sigma_(setup.noise.gyro_noise_density_rad_per_s_sqrt_hz / std::sqrt(imu_period_s)),
-      accel_sigma_(setup.noise.accel_noise_density_m_per_s2_sqrt_hz / std::sqrt(imu_period_s)) {}
+    : setup_(setup), rest_(setup.noise, imu_period_s, setup.gravity_m_s2) {}
 
 void StaticInitialiser::Start(const Prior& prior) {
   prior_ = prior;
-  Restart();
-}
-
-void StaticInitialiser::Restart() {
-  gyro_ = {};
-  accel_ = {};
-  count_ = 0;
-  seconds_ = 0.0;
-}
-
-bool StaticInitialiser::LooksMoving() const {
-  const double gyro_limit = kScatterFactor * gyro_sigma_ + kGyroFloor;
-  const double accel_limit = kScatterFactor * accel_sigma_ + kAccelFloor;
-  if (Largest(gyro_.squares, count_) > gyro_limit * gyro_limit) return true;
-  if (Largest(accel_.squares, count_) > accel_limit * accel_limit) return true;
-  const double rate = (gyro_.mean - prior_.gyro_bias_rad_s).cwiseAbs().maxCoeff();
-  if (rate > kPriorSigmas * LargestSigma(prior_.covariance, kGyroBias) + kGyroFloor) return true;
-  const double force = (accel_.mean - prior_.accel_bias_m_s2).norm() - setup_.gravity_m_s2;
-  return std::abs(force) > kPriorSigmas * LargestSigma(prior_.covariance, kAccelBias) + kAccelFloor;
+  rest_.Restart();
 }
 
 StaticInitialiser::Progress StaticInitialiser::Add(const Vector3d& w, const Vector3d& a,
                                                    double dt_s) {
-  ++count_;
-  seconds_ += dt_s;
-  gyro_.Add(w, count_);
-  accel_.Add(a, count_);
-  if (count_ < kFewestSamples) return Progress::kWaiting;
-  if (LooksMoving()) {
-    Restart();
+  rest_.Add(w, a, dt_s);
+  if (!rest_.CanTell()) return Progress::kWaiting;
+  if (rest_.LooksMoving({prior_.gyro_bias_rad_s, prior_.accel_bias_m_s2,
+                         LargestSigma(prior_.covariance, kGyroBias),
+                         LargestSigma(prior_.covariance, kAccelBias)})) {
+    rest_.Restart();
     return Progress::kMoving;
   }
-  return seconds_ + 0.5 * dt_s < setup_.initialisation.static_duration_s ? Progress::kWaiting
-                                                                         : Progress::kDone;
+  return rest_.seconds() + 0.5 * dt_s < setup_.initialisation.static_duration_s ? Progress::kWaiting
+                                                                                : Progress::kDone;
 }
 
 bool StaticInitialiser::AddWheelRate(double rate_rad_s) {
-  if (std::abs(rate_rad_s) <= kWheelFloor) return true;
-  Restart();
+  if (!RestAverage::IsMotion(rate_rad_s)) return true;
+  rest_.Restart();
   return false;
 }
 
 Matrix3d StaticInitialiser::Rotation() const {
-  const Vector3d up_I = accel_.mean - prior_.accel_bias_m_s2;
+  const Vector3d up_I = rest_.accel() - prior_.accel_bias_m_s2;
   const Vector3d up_W = prior_.X_WB.R * up_I;
   return Eigen::Quaterniond::FromTwoVectors(up_W, Vector3d::UnitZ()) * prior_.X_WB.R;
 }
@@ -92,7 +58,7 @@ NavigationState StaticInitialiser::State(const Vector3d& p_BI) const {
   NavigationState x;
   x.R = Rotation();
   x.p = prior_.X_WB.p + x.R * p_BI;
-  x.gyro_bias = setup_.estimate_gyro_bias ? gyro_.mean : prior_.gyro_bias_rad_s;
+  x.gyro_bias = setup_.estimate_gyro_bias ? rest_.gyro() : prior_.gyro_bias_rad_s;
   x.accel_bias = prior_.accel_bias_m_s2;
   return x;
 }
@@ -115,12 +81,13 @@ ErrorCovariance StaticInitialiser::Covariance() const {
   N.middleRows<3>(kTheta) = -MR;
   N.middleRows<3>(kPosition) = -p_cross * MR;
   ErrorCovariance P = T * prior_.covariance * T.transpose();
-  P += (accel_sigma_ * accel_sigma_ / count_) * N * N.transpose();
+  P += (rest_.accel_sigma() * rest_.accel_sigma() / rest_.count()) * N * N.transpose();
   P.diagonal().segment<3>(kVelocity).setConstant(kRestVelocity * kRestVelocity);
   const double walk = setup_.noise.gyro_bias_walk_rad_per_s2_sqrt_hz;
   // The mean of a walk lags its end by a third of what it walked.
-  P.diagonal().segment<3>(kGyroBias).setConstant(gyro_sigma_ * gyro_sigma_ / count_ +
-                                                 walk * walk * seconds_ / 3.0);
+  P.diagonal().segment<3>(kGyroBias).setConstant(rest_.gyro_sigma() * rest_.gyro_sigma() /
+                                                     rest_.count() +
+                                                 walk * walk * rest_.seconds() / 3.0);
   return 0.5 * (P + P.transpose());
 }
 

@@ -5,6 +5,7 @@
 
 #include "reckon/estimator/navigation_state.h"
 #include "reckon/estimator/prior.h"
+#include "reckon/estimator/rest_average.h"
 #include "reckon/estimator/setup.h"
 
 namespace reckon::estimator {
@@ -36,27 +37,11 @@ class StaticInitialiser {
   ErrorCovariance Covariance() const;
 
  private:
-  /// Running mean and sum of squared deviations.
-  struct Average {
-    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-    Eigen::Vector3d squares = Eigen::Vector3d::Zero();
-    void Add(const Eigen::Vector3d& x, int n) {
-      const Eigen::Vector3d d = x - mean;
-      mean += d / n;
-      squares += d.cwiseProduct(x - mean);
-    }
-  };
-
-  bool LooksMoving() const;
-  void Restart();
   Eigen::Matrix3d Rotation() const;
 
   Setup setup_;
-  double gyro_sigma_, accel_sigma_;  ///< of one sample, as believed
   Prior prior_;
-  Average gyro_, accel_;
-  int count_ = 0;
-  double seconds_ = 0.0;
+  RestAverage rest_;
 };
 
 }  // namespace reckon::estimator

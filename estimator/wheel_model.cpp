@@ -32,4 +32,8 @@ models::BodyVelocitySample WheelVelocity(const SideRates& rates, const models::W
   return velocity;
 }
 
+double WheelYawRate(const SideRates& rates, const models::WheelDrive& drive) {
+  return drive.rolling_radius_m * (rates.right - rates.left) / drive.effective_track_m;
+}
+
 }  // namespace reckon::estimator

@@ -23,4 +23,7 @@ std::optional<SideRates> MeanRates(const models::EncoderSample& sample,
 models::BodyVelocitySample WheelVelocity(const SideRates& rates, const models::WheelDrive& drive,
                                          const Noise& noise);
 
+/// What wheels say of the yaw rate: ρ (ω_right − ω_left)/track, with the track that slip leaves.
+double WheelYawRate(const SideRates& rates, const models::WheelDrive& drive);
+
 }  // namespace reckon::estimator

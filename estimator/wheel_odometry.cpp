@@ -49,9 +49,7 @@ void WheelOdometry::Move(models::TimeNs to_ns, const models::EncoderSample& samp
   if (report.refusal != Refusal::kNone) return;
   const double dt = models::Seconds(to_ns - t_ns_);
   const double speed = drive_.rolling_radius_m * 0.5 * (rates->left + rates->right);
-  const double yaw_rate =
-      drive_.rolling_radius_m * (rates->right - rates->left) / drive_.effective_track_m;
-  const Vector3d w(0, 0, yaw_rate);
+  const Vector3d w(0, 0, WheelYawRate(*rates, drive_));
   // The drive's frame moves straight ahead in its own axes; the body turns about its own vertical.
   const Vector3d v_B = drive_.X_BS.R * Vector3d(speed, 0, 0) - w.cross(drive_.X_BS.p);
   const Eigen::Matrix3d R = X_WB_.R;

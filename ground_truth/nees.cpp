@@ -48,7 +48,7 @@ Nees ComputeNees(const Truth& truth, const estimator::Estimate& estimate) {
   for (int block = 0; block < kNeesFull; ++block) {
     const Eigen::Matrix3d P = estimate.covariance.block<3, 3>(3 * block, 3 * block);
     const bool bias = block == kNeesGyroBias || block == kNeesAccelBias;
-    if (P.isZero(0.0) || (bias && !estimate.has_biases)) {
+    if (P.isZero(0.0) || (bias && !(estimate.has_biases && truth.has_biases))) {
       all = false;
       continue;
     }

@@ -34,8 +34,8 @@ struct Nees {
 
 /// The NEES of `estimate` in its own error form, never aligned: unknown yaw and position are judged
 /// by the prior's covariance. A block whose covariance is exactly zero is not estimated and has
-/// none; so have the biases of an estimator without them, and every block of an estimate without
-/// covariance. Does not allocate.
+/// none; so have biases that the estimator or the truth has not, and every block of an estimate
+/// without covariance. Does not allocate.
 Nees ComputeNees(const Truth& truth, const estimator::Estimate& estimate);
 
 }  // namespace reckon::ground_truth

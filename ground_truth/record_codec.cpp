@@ -48,6 +48,20 @@ void Put(const models::BodyVelocitySample& sample, RowEncoder& row) {
   row.Put(sample.covariance);
 }
 
+void Put(const models::DepthSample& sample, RowEncoder& row) { row.Put(sample.depth_m); }
+
+void Put(const models::PoseSample& sample, RowEncoder& row) {
+  row.Put(sample.X_WS.R);
+  row.Put(sample.X_WS.p);
+  row.Put(sample.position_sigma_m);
+  row.Put(sample.orientation_sigma_rad);
+  row.Put(sample.has_orientation);
+}
+
+void Put(const models::ContactSample& sample, RowEncoder& row) {
+  for (int i = 0; i < sample.probability.size(); ++i) row.Put(sample.probability[i]);
+}
+
 models::Sample GetImu(RowDecoder& row) {
   models::ImuSample sample;
   sample.gyro_rad_s = row.Vector();
@@ -72,6 +86,25 @@ models::Sample GetBodyVelocity(RowDecoder& row) {
   models::BodyVelocitySample sample;
   sample.v_WS_S = row.Vector();
   sample.covariance = row.Matrix();
+  return sample;
+}
+
+models::Sample GetDepth(RowDecoder& row) { return models::DepthSample{row.Get<double>()}; }
+
+models::Sample GetPoseSample(RowDecoder& row) {
+  models::PoseSample sample;
+  sample.X_WS.R = row.Matrix();
+  sample.X_WS.p = row.Vector();
+  sample.position_sigma_m = row.Vector();
+  sample.orientation_sigma_rad = row.Vector();
+  sample.has_orientation = GetWithin<std::uint8_t>(row, "has_orientation", 0, 2) != 0;
+  return sample;
+}
+
+models::Sample GetContacts(RowDecoder& row, int feet) {
+  models::ContactSample sample;
+  sample.probability.resize(feet);
+  for (double& probability : sample.probability) probability = row.Get<double>();
   return sample;
 }
 
@@ -164,6 +197,7 @@ Truth DecodeTruth(RowDecoder& row, int wheels) {
   GetPose(truth, row);
   truth.w_WB_B = row.Vector();
   GetBiases(truth, row);
+  truth.has_biases = truth.gyro_bias_rad_s.allFinite() && truth.accel_bias_m_s2.allFinite();
   truth.wheel_rate_rad_s.resize(wheels);
   truth.wheel_slip_m_s.resize(wheels);
   truth.wheel_load_n.resize(wheels);
@@ -191,6 +225,15 @@ models::Measurement DecodeMeasurement(RowDecoder& row, models::SensorId sensor,
       break;
     case models::SensorKind::kBodyVelocity:
       measurement.sample = GetBodyVelocity(row);
+      break;
+    case models::SensorKind::kDepth:
+      measurement.sample = GetDepth(row);
+      break;
+    case models::SensorKind::kPose:
+      measurement.sample = GetPoseSample(row);
+      break;
+    case models::SensorKind::kContacts:
+      measurement.sample = GetContacts(row, channels);
       break;
   }
   return measurement;

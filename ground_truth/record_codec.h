@@ -29,7 +29,7 @@ void Encode(const models::Measurement& measurement, estimator::Refusal reason, s
 void Encode(const estimator::Prior& prior, RowEncoder& row);
 
 Truth DecodeTruth(RowDecoder& row, int wheels);
-/// The sample's kind and its number of encoders are the sensor's.
+/// The sample's kind and its number of encoders or feet are the sensor's.
 models::Measurement DecodeMeasurement(RowDecoder& row, models::SensorId sensor,
                                       models::SensorKind kind, int channels, std::uint64_t* order);
 /// Without the covariance, which is in a table of its own.

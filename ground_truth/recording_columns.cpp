@@ -78,14 +78,34 @@ void AddBodyVelocity(Columns& columns) {
   AddMatrix(columns, "covariance", "_m2_s2", "m^2/s^2", "S", "as delivered by the sensor");
 }
 
-constexpr std::array<std::string_view, 3> kSensorKinds{"imu", "encoders", "body_velocity"};
+void AddDepth(Columns& columns) {
+  Add(columns, "depth_m", Type::kFloat64, "m", "of the sensor's origin below z = 0 of W");
+}
+
+void AddPoseSample(Columns& columns) {
+  AddMatrix(columns, "R_WS", "", "1", "W", "rotation that takes coordinates in S to W");
+  AddVector(columns, "p_WS", "m", "m", "W", "position of the sensor's origin");
+  AddVector(columns, "position_sigma", "m", "m", "W", "as delivered by the sensor");
+  AddVector(columns, "orientation_sigma", "rad", "rad", "W", "as delivered by the sensor");
+  Add(columns, "has_orientation", Type::kUint8, "1", "0: R_WS and its sigma say nothing");
+}
+
+void AddContacts(Columns& columns, const std::vector<std::string>& feet) {
+  for (const auto& foot : feet) {
+    Add(columns, foot + "_contact", Type::kFloat64, "1", "probability that the foot stands");
+  }
+}
+
+constexpr std::array<std::string_view, 6> kSensorKinds{"imu",   "encoders", "body_velocity",
+                                                       "depth", "pose",     "contacts"};
+static_assert(static_cast<std::size_t>(models::SensorKind::kContacts) + 1 == kSensorKinds.size());
 constexpr std::array<std::string_view, 3> kErrorForms{"right_invariant", "left_invariant",
                                                       "multiplicative"};
 constexpr std::array<std::string_view, 5> kDecisions{"accepted", "warned", "inflated", "rejected",
                                                      "refused"};
-constexpr std::array<std::string_view, 10> kRefusals{
+constexpr std::array<std::string_view, 11> kRefusals{
     "none",        "not_finite", "not_initialised", "moving", "backwards", "late",
-    "from_future", "gap",        "invalid",         "unused"};
+    "from_future", "gap",        "invalid",         "unused", "duplicate"};
 
 constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kConventions{{
     {"format", "reckon recording 1"},
@@ -137,6 +157,15 @@ Columns MeasurementColumns(const RecordedSensor& sensor) {
       break;
     case models::SensorKind::kBodyVelocity:
       AddBodyVelocity(columns);
+      break;
+    case models::SensorKind::kDepth:
+      AddDepth(columns);
+      break;
+    case models::SensorKind::kPose:
+      AddPoseSample(columns);
+      break;
+    case models::SensorKind::kContacts:
+      AddContacts(columns, sensor.channels);
       break;
   }
   return columns;

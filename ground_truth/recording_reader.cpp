@@ -78,10 +78,10 @@ class MeasurementMerge {
     const Stream& stream = streams_[index];
     const std::byte* row = stream.table->Next();
     if (row == nullptr) return;
-    RowDecoder decoder(row);
     std::uint64_t order = 0;
-    const models::Measurement measurement =
-        DecodeMeasurement(decoder, stream.id, stream.kind, stream.channels, &order);
+    const models::Measurement measurement = Decoded(*stream.table, row, [&](RowDecoder& decoder) {
+      return DecodeMeasurement(decoder, stream.id, stream.kind, stream.channels, &order);
+    });
     heads_.emplace(order, std::make_pair(index, measurement));
   }
 
@@ -168,6 +168,17 @@ class RecordingReader::Impl {
     for (int i = 0; i < 9; ++i) sensor.X_BS.R(i / 3, i % 3) = R[static_cast<std::size_t>(i)];
     for (int i = 0; i < 3; ++i) sensor.X_BS.p[i] = p[static_cast<std::size_t>(i)];
     recorded_.push_back({sensor, ReadTexts(dataset.get(), "channels")});
+    CheckChannels(recorded_.back());
+  }
+
+  /// A sample can't hold more channels than its type has room for.
+  void CheckChannels(const RecordedSensor& recorded) const {
+    const bool feet = recorded.sensor.kind == models::SensorKind::kContacts;
+    const std::size_t most = feet ? models::kMaxFeet : models::kMaxEncoders;
+    if (recorded.channels.size() <= most) return;
+    throw RecordingError(fmt::format("{}: sensor {} has {} channels, at most {} are possible",
+                                     path_.string(), recorded.sensor.name, recorded.channels.size(),
+                                     most));
   }
 
   std::vector<std::string> ReadTexts(hid_t object, const std::string& name) const {

@@ -177,9 +177,11 @@ class RunRecorder::Impl {
                                   "' sent another kind of sample");
     }
     const auto* encoders = std::get_if<models::EncoderSample>(&measurement.sample);
+    const auto* contacts = std::get_if<models::ContactSample>(&measurement.sample);
     const auto channels = static_cast<Eigen::Index>(planned.channels.size());
-    if (encoders != nullptr &&
-        (encoders->angle_rad.size() != channels || encoders->rate_rad_s.size() != channels)) {
+    if ((encoders != nullptr &&
+         (encoders->angle_rad.size() != channels || encoders->rate_rad_s.size() != channels)) ||
+        (contacts != nullptr && contacts->probability.size() != channels)) {
       throw std::invalid_argument("sensor '" + planned.sensor.name +
                                   "' sent another number of channels than planned");
     }

@@ -8,6 +8,7 @@
 
 #include "reckon/ground_truth/alignment.h"
 #include "reckon/ground_truth/ate.h"
+#include "reckon/ground_truth/body_errors.h"
 #include "reckon/ground_truth/drift.h"
 #include "reckon/ground_truth/metrics.h"
 #include "reckon/ground_truth/nis.h"
@@ -59,6 +60,16 @@ void AddAbsolute(Metrics& metrics, Samples samples, Alignment align) {
                 "the angle of the orientation error after alignment");
   AddStatistics(metrics, "ate_velocity", kMetresPerSecond, errors.velocity_m_s,
                 "the velocity error after alignment");
+}
+
+void AddBody(Metrics& metrics, Samples samples) {
+  const BodyErrors errors = BodyError(samples);
+  AddStatistics(metrics, "tilt_error", kDegrees, errors.tilt_deg,
+                "the angle between true and estimated vertical, never aligned");
+  AddStatistics(metrics, "heading_error", kDegrees, errors.heading_deg,
+                "the orientation error's twist about the vertical, never aligned");
+  AddStatistics(metrics, "body_velocity_error", kMetresPerSecond, errors.velocity_m_s,
+                "the velocity error in body axes, never aligned");
 }
 
 /// A length in a metric's name: `1`, `0p5`.
@@ -167,7 +178,9 @@ void AddSensor(Metrics& metrics, const Track& track, models::SensorId id, const 
     metrics.Add({decision + "_" + name + "_count", static_cast<double>(counts.decisions[i]), true,
                  "count", "corrections that were " + decision});
   }
-  for (std::size_t i = 1; i + 1 < kRefusals; ++i) {  // neither `none` nor `unused`
+  for (std::size_t i = 0; i < kRefusals; ++i) {
+    const auto refusal = static_cast<estimator::Refusal>(i);
+    if (refusal == estimator::Refusal::kNone || refusal == estimator::Refusal::kUnused) continue;
     const std::string reason(RefusalNames()[i]);
     metrics.Add({"refused_" + name + "_" + reason + "_count",
                  static_cast<double>(counts.refusals[i]), true, "count",
@@ -181,6 +194,7 @@ Metrics Score(const Track& track, const std::vector<std::string>& sensors,
               const ScoreOptions& options) {
   Metrics metrics;
   AddAbsolute(metrics, track.samples(), options.align);
+  AddBody(metrics, track.samples());
   AddRelative(metrics, track.samples(), options);
   AddDrift(metrics, track);
   AddNees(metrics, track);

@@ -26,7 +26,7 @@ void Track::Add(const Truth& truth, const estimator::Estimate& estimate) {
                       estimate.gyro_bias_rad_s - truth.gyro_bias_rad_s,
                       estimate.accel_bias_m_s2 - truth.accel_bias_m_s2,
                       ComputeNees(truth, estimate)});
-  has_biases_ = has_biases_ || estimate.has_biases;
+  has_biases_ = has_biases_ || (estimate.has_biases && truth.has_biases);
 }
 
 void Track::Add(const models::Measurement& measurement, const estimator::Report& report) {

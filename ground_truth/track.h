@@ -61,6 +61,7 @@ class Track {
   const std::vector<TrackSample>& samples() const { return samples_; }
   const std::vector<TrackCorrection>& corrections() const { return corrections_; }
   const std::vector<TrackRefusal>& refusals() const { return refusals_; }
+  /// Whether there are biases, estimated and true, to compare.
   bool has_biases() const { return has_biases_; }
 
   /// Forgets what lies before `start_ns`.

@@ -49,6 +49,11 @@ estimator::Setup MakeSetup(const EstimatorConfig& config, const InitialConfig& i
   setup.noise = config.noise;
   setup.gate = config.gate;
   setup.initialisation = config.initialisation;
+  setup.iterations = config.iterations;
+  setup.history_s = config.history_s;
+  setup.standstill = config.standstill;
+  setup.floor = config.floor;
+  setup.gyro_filter = config.gyro_filter;
   setup.prior_sigma = initial.sigma;
   setup.gravity_m_s2 = gravity_m_s2;
   setup.estimate_gyro_bias = config.estimate_gyro_bias;

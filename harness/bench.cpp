@@ -126,4 +126,11 @@ void Bench::EndInstant() {
 
 void Bench::Finish() { EndInstant(); }
 
+void Bench::AddCosts(Costs& costs) const {
+  for (const Tested& tested : tested_) costs.estimators[tested.name] = tested.cost;
+  costs.recording_s += recording_s_;
+  costs.scoring_s += scoring_s_;
+  costs.estimators_s -= recording_s_ + scoring_s_;
+}
+
 }  // namespace reckon::harness

@@ -57,9 +57,9 @@ class Bench {
   /// What happened so far, by estimator; the bench forgets it.
   std::map<std::string, ground_truth::Track> TakeTracks();
 
-  /// Time spent here on recording and on building the tracks: none of it is the estimators'.
-  double recording_s() const { return recording_s_; }
-  double scoring_s() const { return scoring_s_; }
+  /// Says what each estimator cost. Recording and scoring while it delivered are taken from what
+  /// `costs` holds for the estimators, whose they are not.
+  void AddCosts(Costs& costs) const;
 
  private:
   struct Tested {

@@ -10,6 +10,7 @@
 
 #include "reckon/build_info.h"
 #include "reckon/harness/list_command.h"
+#include "reckon/harness/log_file.h"
 #include "reckon/harness/nearest.h"
 #include "reckon/harness/results_folder.h"
 #include "reckon/harness/run_command.h"
@@ -37,24 +38,38 @@ std::string WholeNumber(const std::string& text) {
   return digits ? "" : "expected a whole number of at least 0, found '" + text + "'";
 }
 
+void AddRunFlags(CLI::App& command, RunArguments& run) {
+  command.add_option("--set", run.overrides, "Override a key: a.b=c (repeatable)")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+  command.add_option("--seed", run.seed, "Another seed")->check(WholeNumber);
+  command.add_option("--estimator", run.estimators, "Run only this estimator (repeatable)")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  command.add_option("--out", run.out, "Folder of the results")->capture_default_str();
+  command.add_option("--jobs", run.jobs, "Scenarios that run at once")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command.add_flag("--json", run.json, "Machine-readable results on stdout");
+  command.add_flag("--quiet", run.quiet, "No progress and no warnings");
+  command.add_flag("--force", run.force, "Replace a folder that is not a result of this scenario");
+  command.add_flag("--resume", run.resume, "Keep finished results of the same resolved scenario");
+}
+
 void AddRun(CLI::App& app, RunArguments& run) {
   CLI::App* command = app.add_subcommand("run", "Run scenarios, score them, write their results");
   command->add_option("scenario", run.scenarios, "Scenario files")->required();
-  command->add_option("--set", run.overrides, "Override a key: a.b=c (repeatable)")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
-  command->add_option("--seed", run.seed, "Another seed")->check(WholeNumber);
-  command->add_option("--estimator", run.estimators, "Run only this estimator (repeatable)")
-      ->type_name("NAME")
-      ->allow_extra_args(false);
-  command->add_option("--out", run.out, "Folder of the results")->capture_default_str();
-  command->add_option("--jobs", run.jobs, "Scenarios that run at once")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
-  command->add_flag("--json", run.json, "Machine-readable results on stdout");
-  command->add_flag("--quiet", run.quiet, "No progress and no warnings");
-  command->add_flag("--force", run.force, "Replace a folder that is not a result of this scenario");
-  command->add_flag("--resume", run.resume, "Keep finished results of the same resolved scenario");
+  AddRunFlags(*command, run);
+}
+
+void AddReplay(CLI::App& app, RunArguments& run) {
+  CLI::App* command = app.add_subcommand(
+      "replay", "Run estimators over recorded measurements in place of the simulator");
+  command
+      ->add_option("log", run.scenarios,
+                   "Folders with a log.yaml, result folders, or scenarios with a log")
+      ->required();
+  AddRunFlags(*command, run);
 }
 
 void AddScore(CLI::App& app, ScoreArguments& score) {
@@ -100,6 +115,9 @@ int Check(const CheckArguments& arguments) {
     try {
       const std::string resolved = CheckText(path, arguments.overrides);
       if (!arguments.quiet) fmt::print("{}", resolved);
+    } catch (const LogMissing& missing) {
+      fmt::print(stderr, "{}: skipped: {}\n", path, missing.what());
+      if (code == kExitHolds) code = kExitSkipped;
     } catch (const InputError& error) {
       fmt::print(stderr, "{}\n", error.what());
       code = kExitBadInput;
@@ -154,11 +172,13 @@ int RunCommandLine(int argc, char** argv) {
                "reckon");
   app.require_subcommand(1);
   app.set_version_flag("--version", std::string("reckon " RECKON_VERSION));
-  RunArguments run;
+  RunArguments run, replay;
+  replay.replay = true;
   ScoreArguments score;
   CheckArguments check;
   ListArguments list;
   AddRun(app, run);
+  AddReplay(app, replay);
   AddScore(app, score);
   AddCheck(app, check);
   AddList(app, list);
@@ -166,6 +186,7 @@ int RunCommandLine(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     if (app.got_subcommand("run")) return FlushResults(RunCommand(run));
+    if (app.got_subcommand("replay")) return FlushResults(RunCommand(replay));
     if (app.got_subcommand("score")) return FlushResults(ScoreCommand(score));
     if (app.got_subcommand("check")) return FlushResults(Check(check));
     fmt::print("{}", list.json ? ListJson(list.what) : ListText(list.what));

@@ -59,7 +59,9 @@ std::span<const Choice<models::SensorKind>> Choices() {
   static const std::vector<Choice<Kind>> kChoices{
       {Kind::kImu, "imu", "gyroscope and accelerometer"},
       {Kind::kEncoders, "encoders", "rotary encoders of all wheels"},
-      {Kind::kBodyVelocity, "body_velocity", "an ideal velocity sensor with white noise"}};
+      {Kind::kBodyVelocity, "body_velocity", "an ideal velocity sensor with white noise"},
+      {Kind::kDepth, "depth", "a pressure sensor: how deep it lies"},
+      {Kind::kPose, "pose", "an absolute pose or position from outside, with white noise"}};
   return kChoices;
 }
 
@@ -80,7 +82,9 @@ std::span<const Choice<estimator::InitialisationKind>> Choices() {
   static const std::vector<Choice<Kind>> kChoices{
       {Kind::kPrior, "prior", "from the prior alone"},
       {Kind::kStatic, "static",
-       "tilt and gyroscope bias from a resting IMU, the rest from the prior"}};
+       "tilt and gyroscope bias from a resting IMU, the rest from the prior"},
+      {Kind::kPose, "pose",
+       "orientation and position from the first pose sample, the rest from the prior"}};
   return kChoices;
 }
 

@@ -31,7 +31,7 @@ std::span<const Choice<sim::FaultKind>> Choices();
 template <>
 std::span<const Choice<sim::FaultChannels>> Choices();
 template <>
-std::span<const Choice<models::SensorKind>> Choices();
+std::span<const Choice<models::SensorKind>> Choices();  ///< those that can be simulated
 template <>
 std::span<const Choice<estimator::GateAction>> Choices();
 template <>

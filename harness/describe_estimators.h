@@ -23,6 +23,23 @@ void Describe(Archive& a, estimator::Noise& n) {
           "Of the condition that the robot does not lift off", Between(0, 100));
   a.Field("body_velocity_scale", n.body_velocity_scale,
           "Factor on the sigma that a velocity sensor delivers", AboveUpTo(0, 1e3));
+  a.Field("pose_scale", n.pose_scale, "Factor on the sigmas that a pose sensor delivers",
+          AboveUpTo(0, 1e3));
+  a.Field("depth_m", n.depth_m, "Depth, white, a sample", Between(0, 100));
+  a.Field("joint_angle_rad", n.joint_angle_rad, "Angle of a leg's joint, white, a sample",
+          Between(0, 1));
+  a.Field("foot_position_m", n.foot_position_m,
+          "Of what a leg's kinematics leave out, each axis, a sample", Between(0, 10));
+  a.Field("foot_slip_m_per_s_sqrt_hz", n.foot_slip_m_per_s_sqrt_hz,
+          "Velocity of a standing foot, white", Between(0, 100));
+  a.Field("wheel_yaw_rate_rad_per_s", n.wheel_yaw_rate_rad_per_s,
+          "Turn rate from the wheels, white, a sample", Between(0, 100));
+  a.Field("standstill_m_per_s", n.standstill_m_per_s,
+          "What may be left of the velocity at standstill", Between(0, 100));
+  a.Field("standstill_rad_per_s", n.standstill_rad_per_s,
+          "What may be left of the turn rate at standstill", Between(0, 10));
+  a.Field("floor_height_m", n.floor_height_m, "Height of a flat floor, white, a use",
+          Between(0, 100));
 }
 
 template <class Archive>
@@ -39,6 +56,28 @@ void Describe(Archive& a, estimator::Initialisation& i) {
   if (i.kind == Kind::kStatic) {
     a.Field("static_duration_s", i.static_duration_s, "Rest that is averaged", AboveUpTo(0, 3600));
   }
+}
+
+template <class Archive>
+void Describe(Archive& a, estimator::Standstill& s) {
+  a.Field("use", s.use, "Take a robot that stands still for one: zero velocity, zero turn rate");
+  a.Field("window_s", s.window_s, "The IMU and wheels must be quiet this long", AboveUpTo(0, 60));
+}
+
+template <class Archive>
+void Describe(Archive& a, estimator::FlatFloor& f) {
+  a.Field("use", f.use, "Take the ground for a floor of one known height");
+  a.Field("height_m", f.height_m, "z of a standing foot, or else of the body's origin",
+          Between(-1e4, 1e4));
+}
+
+template <class Archive>
+void Describe(Archive& a, estimator::GyroFilter& g) {
+  a.Field("source", g.source,
+          "The sensor that refines the angular rate beside the IMU: another IMU, or the wheels' "
+          "encoders; empty: none");
+  a.Field("bias_sigma_rad_s", g.bias_sigma_rad_s, "Turn-on bias of that other IMU, each axis",
+          Between(0, 10));
 }
 
 template <class Archive>
@@ -78,6 +117,14 @@ void Describe(Archive& a, EstimatorConfig& e) {
   if (is_filter) {
     a.Field("gate", e.gate, "Test of every correction's normalised innovation squared");
     a.Field("initialisation", e.initialisation, "How the first state is found");
+    if (e.type == "iterated_inekf") {
+      a.Field("iterations", e.iterations, "Of one correction, at most", Between(1, 20));
+    }
+    a.Field("history_s", e.history_s,
+            "How late a measurement can be and still be used at its own time", Between(0, 10));
+    a.Field("standstill", e.standstill, "What is made of a robot that stands still");
+    a.Field("floor", e.floor, "What is made of flat ground");
+    a.Field("gyro_filter", e.gyro_filter, "The stage that refines the angular rate");
     a.Field("estimate_gyro_bias", e.estimate_gyro_bias, "false: keeps the prior's");
     a.Field("estimate_accel_bias", e.estimate_accel_bias, "false: keeps the prior's");
   }

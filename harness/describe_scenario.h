@@ -92,6 +92,23 @@ void Describe(Archive& a, ExpectConfig& e) {
   a.Rest(e.estimators, "What is expected of one estimator");
 }
 
+/// What a scenario without a log has.
+template <class Archive>
+void DescribeSimulation(Archive& a, Scenario& s) {
+  a.Field("recording", s.recording,
+          "A recording of this scenario, relative to this file: its measurements stand in for the "
+          "simulator's");
+  a.Field("robot", s.robot, "A folder in models/");
+  a.Field("duration_s", s.duration_s, "Simulated time", AboveUpTo(0, 1e5));
+  a.Field("world", s.world, "Truth: the ground and the physics");
+  a.Field("motion", s.world.motion, "Truth: what the driver does");
+  a.Field("actual", s.world.actual, "Truth: how the simulated robot differs from the nominal one");
+  a.Field("drive", s.drive, "Truth: motors and tyres");
+  a.Removable("sensors", s.sensors,
+              "Truth: what the sensors send; `off` removes one of the robot's");
+  a.Field("faults", s.faults, "Truth: what goes wrong with a sensor, and when");
+}
+
 template <class Archive>
 void Describe(Archive& a, Scenario& s) {
   a.Field("schema", s.schema, "Version of this format", Between(1, 1));
@@ -100,16 +117,10 @@ void Describe(Archive& a, Scenario& s) {
   bool robot_defaults = !Archive::kWrites;  // a resolved file holds everything that it needs
   a.Field("robot_defaults", robot_defaults,
           "Start from the robot's own sensors, drive and nominal values");
-  a.Field("robot", s.robot, "A folder in models/");
-  a.Field("duration_s", s.duration_s, "Simulated time", AboveUpTo(0, 1e5));
+  a.Field("log", s.log,
+          "A folder with a robot's log, relative to this file: it stands in for the simulator");
   a.Field("seed", s.seed, "Of every random draw", AtLeast(0));
-  a.Field("world", s.world, "Truth: the ground and the physics");
-  a.Field("motion", s.world.motion, "Truth: what the driver does");
-  a.Field("actual", s.world.actual, "Truth: how the simulated robot differs from the nominal one");
-  a.Field("drive", s.drive, "Truth: motors and tyres");
-  a.Removable("sensors", s.sensors,
-              "Truth: what the sensors send; `off` removes one of the robot's");
-  a.Field("faults", s.faults, "Truth: what goes wrong with a sensor, and when");
+  if (s.log.empty()) DescribeSimulation(a, s);
   a.Field("nominal", s.nominal, "Belief: the robot as estimators know it");
   a.Field("initial", s.initial, "Belief: where all estimators start");
   EstimatorConfig prototype;

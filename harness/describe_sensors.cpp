@@ -51,6 +51,12 @@ sim::SensorErrors DefaultErrors(models::SensorKind kind) {
       return sim::EncoderConfig{};
     case models::SensorKind::kBodyVelocity:
       return sim::BodyVelocityConfig{};
+    case models::SensorKind::kDepth:
+      return sim::DepthConfig{};
+    case models::SensorKind::kPose:
+      return sim::PoseConfig{};
+    case models::SensorKind::kContacts:
+      break;  // no sensor of contact is simulated, so no scenario names one
   }
   return sim::ImuConfig{};
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <type_traits>
 #include <variant>
 
 #include "reckon/harness/describe_choices.h"
@@ -88,6 +90,35 @@ void DescribeErrors(Archive& a, sim::BodyVelocityConfig& e) {
           Between(0, 100));
 }
 
+template <class Archive>
+void DescribeErrors(Archive& a, sim::DepthConfig& e) {
+  DescribeTiming(a, e.timing);
+  a.Field("noise_m", e.noise_m, "Sigma a sample, white, before quantisation", Between(0, 100));
+  a.Field("offset_m", e.offset_m, "Sigma of the constant offset drawn once", Between(0, 100));
+  a.Field("resolution_m", e.resolution_m, "Of one bit; 0: not quantised", Between(0, 10));
+}
+
+template <class Archive>
+void DescribeErrors(Archive& a, sim::PoseConfig& e) {
+  DescribeTiming(a, e.timing);
+  a.Field("noise_position_m", e.noise_position_m, "Sigma a sample, along the world's axes",
+          Between(0, 1e4));
+  a.Field("noise_orientation_rad", e.noise_orientation_rad,
+          "Sigma a sample of the rotation vector from true to measured, about the world's axes",
+          Between(0, 3.2));
+  a.Field("orientation", e.orientation, "false: it knows its position alone");
+}
+
+template <models::SensorKind kind, class Errors>
+inline constexpr bool kIsOfKind =
+    std::is_same_v<std::variant_alternative_t<static_cast<std::size_t>(kind), sim::SensorErrors>,
+                   Errors>;
+static_assert(kIsOfKind<models::SensorKind::kImu, sim::ImuConfig> &&
+              kIsOfKind<models::SensorKind::kEncoders, sim::EncoderConfig> &&
+              kIsOfKind<models::SensorKind::kBodyVelocity, sim::BodyVelocityConfig> &&
+              kIsOfKind<models::SensorKind::kDepth, sim::DepthConfig> &&
+              kIsOfKind<models::SensorKind::kPose, sim::PoseConfig>);
+
 /// The kind of sensor that `errors` holds: both lists have the same order.
 inline models::SensorKind KindOf(const sim::SensorErrors& errors) {
   return static_cast<models::SensorKind>(errors.index());
@@ -110,7 +141,8 @@ template <class Archive>
 void DescribeChannels(Archive& a, sim::FaultConfig& f) {
   a.Field("channels", f.channels,
           "What it strikes: `gyro` (rad/s) or `accel` (m/s²) of an IMU, `angle` (rad) or `rate` "
-          "(rad/s) of encoders, or `all` the sensor measures, each in its own unit");
+          "(rad/s) of encoders, or `all` the sensor measures, each in its own unit; of a pose "
+          "sensor that is its position");
 }
 
 template <class Archive>

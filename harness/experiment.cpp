@@ -104,12 +104,7 @@ bool Experiment::Run(const Hooks& hooks) {
   }
   bench_.Finish();
   timer_.Lap(costs_.estimators_s);
-  const std::vector<std::string> names = bench_.names();
-  for (std::size_t i = 0; i < names.size(); ++i) costs_.estimators[names[i]] = bench_.cost(i);
-  // The bench records and scores while it delivers: what that took is not the estimators'.
-  costs_.recording_s += bench_.recording_s();
-  costs_.scoring_s += bench_.scoring_s();
-  costs_.estimators_s -= bench_.recording_s() + bench_.scoring_s();
+  bench_.AddCosts(costs_);
   return true;
 }
 

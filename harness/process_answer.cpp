@@ -202,11 +202,11 @@ Enum Named(const Json& value, const std::string& key,
 
 constexpr std::array<std::string_view, 5> kDecisions{"accepted", "warned", "inflated", "rejected",
                                                      "refused"};
-constexpr std::array<std::string_view, 10> kRefusals{
+constexpr std::array<std::string_view, 11> kRefusals{
     "none",        "not_finite", "not_initialised", "moving", "backwards", "late",
-    "from_future", "gap",        "invalid",         "unused"};
+    "from_future", "gap",        "invalid",         "unused", "duplicate"};
 static_assert(static_cast<std::size_t>(estimator::Decision::kRefused) + 1 == kDecisions.size());
-static_assert(static_cast<std::size_t>(estimator::Refusal::kUnused) + 1 == kRefusals.size());
+static_assert(static_cast<std::size_t>(estimator::Refusal::kDuplicate) + 1 == kRefusals.size());
 
 estimator::Correction ParseCorrection(const Json& object, const AnswerContext& context) {
   if (!object.is_object()) Refuse("'corrections' to be a list of objects", Text(object));
@@ -266,7 +266,8 @@ ProcessAnswer ParseAnswer(std::string_view line, const AnswerContext& context) {
   }
   if (const auto corrections = object.find("corrections"); corrections != object.end()) {
     if (!corrections->is_array() || corrections->size() > estimator::kMaxCorrections) {
-      Refuse("'corrections' to be a list of at most 8", Text(*corrections));
+      Refuse("'corrections' to be a list of at most " + std::to_string(estimator::kMaxCorrections),
+             Text(*corrections));
     }
     for (const Json& entry : *corrections) {
       answer.report.Add(ParseCorrection(entry, context));

@@ -36,7 +36,8 @@ Json Frame(const models::Pose& X_BS) {
 }
 
 Json Sensors(const models::Suite& suite) {
-  constexpr std::array kKinds{"imu", "encoders", "body_velocity"};
+  constexpr std::array kKinds{"imu", "encoders", "body_velocity", "depth", "pose", "contacts"};
+  static_assert(static_cast<std::size_t>(models::SensorKind::kContacts) + 1 == kKinds.size());
   Json out = Json::array();
   for (std::size_t id = 0; id < suite.sensors.size(); ++id) {
     const models::MountedSensor& sensor = suite.sensors[id];
@@ -64,7 +65,7 @@ Json Wheels(const models::Suite& suite) {
 
 Json Beliefs(const estimator::Setup& setup) {
   constexpr std::array kActions{"off", "warn", "reject", "inflate"};
-  constexpr std::array kKinds{"prior", "static"};
+  constexpr std::array kKinds{"prior", "static", "pose"};
   Json noise = Json::object();
   for (const auto& field : estimator::NoiseFields()) {
     noise[std::string(field.name)] = setup.noise.*field.member;
@@ -84,6 +85,13 @@ Json Beliefs(const estimator::Setup& setup) {
             {"position_m", sigma.position_m},
             {"gyro_bias_rad_s", sigma.gyro_bias_rad_s},
             {"accel_bias_m_s2", sigma.accel_bias_m_s2}}},
+          {"iterations", setup.iterations},
+          {"history_s", setup.history_s},
+          {"standstill", {{"use", setup.standstill.use}, {"window_s", setup.standstill.window_s}}},
+          {"floor", {{"use", setup.floor.use}, {"height_m", setup.floor.height_m}}},
+          {"gyro_filter",
+           {{"source", setup.gyro_filter.source},
+            {"bias_sigma_rad_s", setup.gyro_filter.bias_sigma_rad_s}}},
           {"estimate_gyro_bias", setup.estimate_gyro_bias},
           {"estimate_accel_bias", setup.estimate_accel_bias},
           {"gravity_m_s2", setup.gravity_m_s2}};
@@ -109,6 +117,25 @@ void AddSample(Json& message, const models::BodyVelocitySample& velocity) {
   message["message"] = "body_velocity";
   message["v_WS_S_m_s"] = Numbers(velocity.v_WS_S);
   message["covariance_m2_s2"] = Numbers(velocity.covariance);
+}
+
+void AddSample(Json& message, const models::DepthSample& depth) {
+  message["message"] = "depth";
+  message["depth_m"] = depth.depth_m;
+}
+
+void AddSample(Json& message, const models::PoseSample& pose) {
+  message["message"] = "pose";
+  message["p_WS_m"] = Numbers(pose.X_WS.p);
+  message["position_sigma_m"] = Numbers(pose.position_sigma_m);
+  message["q_WS"] = pose.has_orientation ? Quaternion(pose.X_WS.R) : Json();
+  message["orientation_sigma_rad"] =
+      pose.has_orientation ? Numbers(pose.orientation_sigma_rad) : Json();
+}
+
+void AddSample(Json& message, const models::ContactSample& contacts) {
+  message["message"] = "contacts";
+  message["probability"] = Numbers(contacts.probability);
 }
 
 std::string Line(const Json& message) { return message.dump() + '\n'; }

@@ -7,6 +7,7 @@
 
 #include "reckon/harness/describe_reader.h"
 #include "reckon/harness/describe_scenario.h"
+#include "reckon/harness/log_file.h"
 #include "reckon/harness/scenario_paths.h"
 #include "reckon/harness/yaml_load.h"
 
@@ -56,6 +57,13 @@ models::WheelDrive WheelsOf(const Scenario& scenario) {
   return wheels;
 }
 
+Robot RobotOf(const LoadedLog& log) {
+  Robot robot;
+  robot.nominal = SuiteOf(log);
+  for (const auto& [name, sensor] : log.values.sensors) robot.channels.push_back(sensor.channels);
+  return robot;
+}
+
 }  // namespace
 
 LoadedRobotFile LoadRobotFile(const std::string& name, const Location& where) {
@@ -84,6 +92,8 @@ Robot MakeRobot(const Scenario& scenario, const models::UrdfRobot& urdf) {
     const models::Pose X_BS = urdf.LinkPose(sensor.frame);
     const auto id = static_cast<models::SensorId>(robot.sensors.size());
     robot.nominal.sensors.push_back({name, KindOf(sensor.errors), X_BS, PeriodOf(sensor)});
+    const bool encoders = robot.nominal.sensors.back().kind == models::SensorKind::kEncoders;
+    robot.channels.push_back(encoders ? robot.joints : std::vector<std::string>());
     robot.sensors.push_back(
         {name, id, ActualPose(X_BS, sensor, scenario.world.actual), sensor.errors});
   }
@@ -93,6 +103,7 @@ Robot MakeRobot(const Scenario& scenario, const models::UrdfRobot& urdf) {
 }
 
 Robot LoadRobot(const Scenario& scenario) {
+  if (!scenario.log.empty()) return RobotOf(LoadLog(scenario.log));
   const Location where{std::make_shared<const std::string>("robot " + scenario.robot), 0, 0};
   const LoadedRobotFile file = LoadRobotFile(scenario.robot, where);
   const std::filesystem::path urdf_path = file.folder / file.values.urdf;

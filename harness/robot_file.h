@@ -40,11 +40,12 @@ struct Robot {
   sim::RobotConfig simulated;
   models::Suite nominal;                 ///< by SensorId: the sensors in the order of their names
   std::vector<sim::SensorSpec> sensors;  ///< by SensorId: where they really are and what they do
-  std::vector<std::string> joints;       ///< encoder entries: left then right, front to rear
+  std::vector<std::string> joints;       ///< wheels: left then right, front to rear
+  std::vector<std::vector<std::string>> channels;  ///< by SensorId: names of a sample's entries
 };
 
-/// Builds the robot of a scenario. Throws InputError if its files can't be read or a sensor's frame
-/// is not in the URDF.
+/// Builds the robot of a scenario, simulated or logged. Throws LogMissing, and InputError if its
+/// files can't be read or a sensor's frame is not in the URDF.
 Robot LoadRobot(const Scenario& scenario);
 
 /// The same from a URDF that was read already.

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <csignal>
 #include <cstdlib>
@@ -14,9 +15,11 @@
 #include <thread>
 
 #include "reckon/harness/cli.h"
+#include "reckon/harness/log_file.h"
 #include "reckon/harness/nearest.h"
 #include "reckon/harness/progress.h"
 #include "reckon/harness/remarks.h"
+#include "reckon/harness/replay_input.h"
 #include "reckon/harness/results_folder.h"
 #include "reckon/harness/run.h"
 #include "reckon/harness/run_json.h"
@@ -70,7 +73,7 @@ std::string Quoted(const std::string& argument) {
 }
 
 std::string RepeatCommand(const std::string& path, const RunArguments& arguments) {
-  std::string command = "reckon run " + Quoted(path);
+  std::string command = (arguments.replay ? "reckon replay " : "reckon run ") + Quoted(path);
   if (arguments.seed) command += fmt::format(" --seed {}", *arguments.seed);
   for (const auto& text : arguments.overrides) command += " --set " + Quoted(text);
   for (const auto& name : arguments.estimators) command += " --estimator " + Quoted(name);
@@ -101,13 +104,18 @@ void KeepEstimators(const std::vector<std::string>& wanted, Scenario& scenario) 
   });
 }
 
+std::string NameOf(const std::string& path, const RunArguments& arguments) {
+  return arguments.replay ? ReplayName(path) : ScenarioName(path);
+}
+
 void RunJob(const RunArguments& arguments, Progress& progress, Job& job) {
   try {
     std::vector<std::string> overrides = arguments.overrides;
     if (arguments.seed) overrides.push_back(fmt::format("seed={}", *arguments.seed));
-    Scenario scenario = ReadScenario(job.path, overrides);
+    Scenario scenario =
+        arguments.replay ? ReadReplay(job.path, overrides) : ReadScenario(job.path, overrides);
     KeepEstimators(arguments.estimators, scenario);
-    const std::string name = ScenarioName(job.path);
+    const std::string name = NameOf(job.path, arguments);
     RunOptions options;
     options.out = arguments.out;
     options.force = arguments.force;
@@ -120,6 +128,9 @@ void RunJob(const RunArguments& arguments, Progress& progress, Job& job) {
     job.result = RunScenario(scenario, name, options);
     job.code = job.result->outcome == Outcome::kInterrupted ? int{kExitInterrupted}
                                                             : job.result->exit_code();
+  } catch (const LogMissing& missing) {
+    job.error = fmt::format("{}: skipped: {}", job.path, missing.what());
+    job.code = kExitSkipped;
   } catch (const InputError& error) {
     job.error = error.what();
     job.code = kExitBadInput;
@@ -132,20 +143,11 @@ void RunJob(const RunArguments& arguments, Progress& progress, Job& job) {
   }
 }
 
-/// Worse codes later: 0, 1, 3, 2; an interrupt beats them all.
+/// Worse codes later: 0, 77, 1, 3, 2; an interrupt beats them all.
 int Severity(int code) {
-  switch (code) {
-    case kExitHolds:
-      return 0;
-    case kExitExpectationFailed:
-      return 1;
-    case kExitRunFailed:
-      return 2;
-    case kExitBadInput:
-      return 3;
-    default:
-      return 4;
-  }
+  constexpr std::array<int, 5> kOrder{kExitHolds, kExitSkipped, kExitExpectationFailed,
+                                      kExitRunFailed, kExitBadInput};
+  return static_cast<int>(std::find(kOrder.begin(), kOrder.end(), code) - kOrder.begin());
 }
 
 bool WantsColor() {
@@ -185,14 +187,15 @@ int Print(const std::vector<Job>& jobs, bool json, bool quiet) {
 }
 
 /// Two scenarios of one call must not write into one folder.
-void RefuseCollisions(const std::vector<std::string>& scenarios) {
+void RefuseCollisions(const RunArguments& arguments) {
   std::set<std::string> names;
-  for (const auto& path : scenarios) {
-    if (!names.insert(ScenarioName(path)).second) {
+  for (const auto& path : arguments.scenarios) {
+    const std::string name = NameOf(path, arguments);
+    if (!names.insert(name).second) {
       throw InputError(
           fmt::format("{}: error: another scenario of this call has the same name "
                       "'{}' and would write into the same folder",
-                      path, ScenarioName(path)));
+                      path, name));
     }
   }
 }
@@ -200,7 +203,7 @@ void RefuseCollisions(const std::vector<std::string>& scenarios) {
 }  // namespace
 
 int RunCommand(const RunArguments& arguments) {
-  RefuseCollisions(arguments.scenarios);
+  RefuseCollisions(arguments);
   const InterruptGuard guard;
   Progress progress(arguments.quiet);
   std::vector<Job> jobs;

@@ -20,6 +20,7 @@ struct RunArguments {
   bool quiet = false;
   bool force = false;
   bool resume = false;
+  bool replay = false;  ///< `scenarios` are logs, as ReadReplay takes them
 };
 
 /// Runs every scenario on `jobs` threads, prints what came out in the order of the command line and

@@ -35,6 +35,11 @@ struct EstimatorConfig {
   estimator::Noise noise;  ///< resolved numbers, whatever their source
   estimator::Gate gate;
   estimator::Initialisation initialisation;
+  int iterations = 4;      ///< iterated_inekf: of a correction, at most
+  double history_s = 0.5;  ///< how late a measurement can be and still be used at its own time
+  estimator::Standstill standstill;
+  estimator::FlatFloor floor;
+  estimator::GyroFilter gyro_filter;
   bool estimate_gyro_bias = true;
   bool estimate_accel_bias = true;
   std::vector<std::string> sensors;  ///< those that it is given; empty: all
@@ -100,6 +105,8 @@ struct NominalConfig {
 struct Scenario {
   int schema = 1;
   std::string description;
+  std::string log;        ///< a folder with a log that stands in for the simulator; empty: none
+  std::string recording;  ///< likewise one of our own recordings
   std::string robot = "husky";
   double duration_s = 60.0;
   std::uint64_t seed = 1;

@@ -50,6 +50,15 @@ class Rules {
     CheckExpectations();
   }
 
+  void RunLog() const {
+    for (const auto& [name, estimator] : s_.estimators) {
+      CheckEstimator(name, estimator);
+      Require(estimator.noise_source != NoiseSource::kMatched, "/estimators/" + name + "/noise",
+              "nominal or numbers: the true noise of a log is not known");
+    }
+    CheckExpectations();
+  }
+
  private:
   /// Where the value at `path` was written, or else what holds it.
   Location Where(std::string path) const {
@@ -243,13 +252,60 @@ class Rules {
     }
     const std::string& wheels = s_.nominal.wheels.encoders;
     if (estimator.type != "odometry") {
-      if (Sees<sim::ImuConfig>(estimator)) return;
-      Complain(path, "type '" + estimator.type + "' needs an IMU, and is given none");
+      if (!Sees<sim::ImuConfig>(estimator)) {
+        Complain(path, "type '" + estimator.type + "' needs an IMU, and is given none");
+      }
+      CheckInitialisation(path, estimator);
+      CheckGyroFilter(path + "/gyro_filter/source", estimator);
+      CheckBelievedNoise(path, estimator);
     } else if (!s_.sensors.contains(wheels)) {
       Complain(path, "type 'odometry' needs wheel encoders, and this robot has none");
     } else if (!IsGiven(estimator, wheels)) {
       Complain(path, "type 'odometry' needs wheel encoders, and is given none");
     }
+  }
+
+  void CheckInitialisation(const std::string& path, const EstimatorConfig& estimator) const {
+    if (estimator.initialisation.kind != estimator::InitialisationKind::kPose) return;
+    if (Sees<sim::PoseConfig>(estimator)) return;
+    Complain(path + "/initialisation/kind", "'pose' needs a pose sensor, and is given none");
+  }
+
+  /// The IMU that moves a filter: the robot's first, by name; empty if there is none.
+  std::string FirstImu() const {
+    for (const auto& [name, sensor] : s_.sensors) {
+      if (std::holds_alternative<sim::ImuConfig>(sensor.errors)) return name;
+    }
+    return "";
+  }
+
+  void CheckGyroFilter(const std::string& path, const EstimatorConfig& estimator) const {
+    const std::string& source = estimator.gyro_filter.source;
+    if (source.empty()) return;
+    RequireOneOf(source, sensors_, path, "sensor");
+    const auto sensor = s_.sensors.find(source);
+    if (sensor == s_.sensors.end()) return;
+    const bool wheels = source == s_.nominal.wheels.encoders;
+    Require(wheels || std::holds_alternative<sim::ImuConfig>(sensor->second.errors), path,
+            "an IMU or the wheels' encoders");
+    Require(source != FirstImu(), path, "another IMU than the one that it refines");
+    Require(IsGiven(estimator, source), path, "a sensor that the estimator is given");
+    Require(!wheels || estimator.noise.wheel_yaw_rate_rad_per_s > 0.0, path,
+            "a positive noise wheel_yaw_rate_rad_per_s beside wheels");
+  }
+
+  /// What is used must be weighed: no sigma of it can be zero.
+  void CheckBelievedNoise(const std::string& path, const EstimatorConfig& estimator) const {
+    Require(!estimator.standstill.use || estimator.noise.standstill_m_per_s > 0.0,
+            path + "/standstill/use", "a positive noise standstill_m_per_s beside it");
+    const auto is_depth = [](const auto& entry) {
+      return std::holds_alternative<sim::DepthConfig>(entry.second.errors);
+    };
+    Require(estimator.noise.depth_m > 0.0 ||
+                std::none_of(s_.sensors.begin(), s_.sensors.end(), is_depth),
+            path + "/noise", "a positive depth_m: the robot has a depth sensor");
+    Require(!estimator.floor.use || estimator.noise.floor_height_m > 0.0, path + "/floor/use",
+            "a positive noise floor_height_m beside it");
   }
 
   static bool IsGiven(const EstimatorConfig& estimator, const std::string& sensor) {
@@ -301,6 +357,10 @@ class Rules {
 void CheckScenario(const Scenario& scenario, const models::UrdfRobot& urdf,
                    const std::string& base_link, const YamlNode& root, Problems& problems) {
   Rules(scenario, root, problems).Run(urdf, base_link);
+}
+
+void CheckLogScenario(const Scenario& scenario, const YamlNode& root, Problems& problems) {
+  Rules(scenario, root, problems).RunLog();
 }
 
 }  // namespace reckon::harness

@@ -15,4 +15,7 @@ namespace reckon::harness {
 void CheckScenario(const Scenario& scenario, const models::UrdfRobot& urdf,
                    const std::string& base_link, const YamlNode& root, Problems& problems);
 
+/// The same for a scenario with a log in place of a robot and a world.
+void CheckLogScenario(const Scenario& scenario, const YamlNode& root, Problems& problems);
+
 }  // namespace reckon::harness

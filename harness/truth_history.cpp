@@ -28,13 +28,14 @@ std::optional<Truth> TruthHistory::At(models::TimeNs t_ns) const {
   std::size_t low = next_ - 1;  // beliefs are a few instants old: look from the newest back
   while (Entry(low).t_ns > t_ns) --low;
   if (Entry(low).t_ns == t_ns) return Entry(low);
+  if (longest_ns_ && Entry(low + 1).t_ns - Entry(low).t_ns > *longest_ns_) return std::nullopt;
   return Interpolate(Entry(low), Entry(low + 1), t_ns);
 }
 
 void TruthHistory::Pair(const estimator::Estimate& estimate, ground_truth::Track& track) const {
   if (const auto truth = At(estimate.t_ns)) {
     track.Add(*truth, estimate);
-  } else {
+  } else if (!longest_ns_) {
     track.AddUnpaired();
   }
 }

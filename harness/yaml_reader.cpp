@@ -7,6 +7,7 @@
 
 #include "reckon/harness/describe_reader.h"
 #include "reckon/harness/describe_scenario.h"
+#include "reckon/harness/log_file.h"
 #include "reckon/harness/robot_file.h"
 #include "reckon/harness/scenario_noise.h"
 #include "reckon/harness/scenario_rules.h"
@@ -117,9 +118,41 @@ void Complete(const YamlNode& root, const fs::path& folder, Scenario& scenario) 
   }
 }
 
+/// A path of the scenario file as one that holds from anywhere.
+std::string WholePath(const fs::path& folder, const std::string& path) {
+  return fs::absolute(folder / path).lexically_normal().string();
+}
+
+/// A scenario that a log stands behind in place of a robot and a world.
+Scenario ResolveLog(YamlNode root, const fs::path& folder) {
+  Scenario scenario;
+  Problems problems;
+  const auto text = ReadText(*root.Find("log"), "/log", problems);
+  problems.ThrowIfAny();
+  const LoadedLog log = LoadLog(WholePath(folder, *text));
+  YamlNode base;
+  base.type = YamlNode::Type::kMap;
+  base.at = root.at;
+  if (const YamlNode* nominal = log.root.Find("nominal")) base.Add("nominal", *nominal);
+  Merge(root, base);
+  ReadDocument(base, problems, scenario);
+  problems.ThrowIfAny();
+  scenario.log = WholePath(folder, *text);
+  scenario.robot = log.folder.filename().string();
+  scenario.sensors = SensorsOf(log.values);
+  scenario.world.gravity_m_s2 = log.values.gravity_m_s2;
+  Complete(base, folder, scenario);
+  CheckLogScenario(scenario, base, problems);
+  problems.ThrowIfAny();
+  return scenario;
+}
+
 Scenario Resolve(YamlNode root, const fs::path& folder, int layer,
                  const std::vector<std::string>& overrides) {
   for (const std::string& text : overrides) ApplyOverride(text, ++layer, root);
+  if (const YamlNode* log = root.Find("log"); log != nullptr && log->text != "") {
+    return ResolveLog(std::move(root), folder);
+  }
   const LoadedRobotFile robot = LoadRobotFile(RobotName(root), WhereOf(root, "robot"));
   LayOverRobot(robot, root);
 
@@ -130,6 +163,7 @@ Scenario Resolve(YamlNode root, const fs::path& folder, int layer,
     problems.Add(include->at, "'/include': only a file can include files");
   }
   problems.ThrowIfAny();
+  if (!scenario.recording.empty()) scenario.recording = WholePath(folder, scenario.recording);
   Complete(root, folder, scenario);
   const fs::path urdf_path = robot.folder / robot.values.urdf;
   try {

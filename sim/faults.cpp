@@ -32,6 +32,10 @@ void ForEachChannel(models::Sample& sample, FaultChannels channels, const Visit&
     visit_all(encoders->rate_rad_s, FaultChannels::kRate);
   } else if (auto* velocity = std::get_if<models::BodyVelocitySample>(&sample)) {
     visit_all(velocity->v_WS_S, FaultChannels::kAll);
+  } else if (auto* depth = std::get_if<models::DepthSample>(&sample)) {
+    visit(channel, depth->depth_m);
+  } else if (auto* pose = std::get_if<models::PoseSample>(&sample)) {
+    visit_all(pose->X_WS.p, FaultChannels::kAll);
   }
 }
 

@@ -64,7 +64,25 @@ struct BodyVelocityConfig {
   Eigen::Vector3d noise_m_per_s = Eigen::Vector3d::Zero();  ///< σ per sample and axis of S
 };
 
-using SensorErrors = std::variant<ImuConfig, EncoderConfig, BodyVelocityConfig>;
+/// A pressure sensor that tells how deep its own origin lies.
+struct DepthConfig {
+  Timing timing{.rate_hz = 10.0};
+  double noise_m = 0.0;       ///< σ per sample, white, before quantisation
+  double offset_m = 0.0;      ///< σ of the constant offset drawn once a run
+  double resolution_m = 0.0;  ///< per least significant bit; 0: not quantised
+};
+
+/// An absolute pose from outside: satellites, motion capture, a map.
+struct PoseConfig {
+  Timing timing{.rate_hz = 10.0};
+  Eigen::Vector3d noise_position_m = Eigen::Vector3d::Zero();       ///< σ per sample, axes of W
+  Eigen::Vector3d noise_orientation_rad = Eigen::Vector3d::Zero();  ///< likewise, about them
+  bool orientation = true;  ///< false: it knows its position alone
+};
+
+/// The sensors that can be simulated, in the order of `models::SensorKind`.
+using SensorErrors =
+    std::variant<ImuConfig, EncoderConfig, BodyVelocityConfig, DepthConfig, PoseConfig>;
 
 enum class FaultKind {
   kDropout,       ///< nothing is sent
@@ -96,7 +114,8 @@ struct FaultConfig {
   double for_s = 1.0;
   double magnitude = 0.0;
   /// For kinds that change channels (bias step to saturation, outliers, NaN). One magnitude is
-  /// rarely right for both units of a sensor.
+  /// rarely right for both units of a sensor. The channels of a pose sensor are its position: its
+  /// orientation is left alone.
   FaultChannels channels = FaultChannels::kAll;
 
   static constexpr Range kDelay = AboveUpTo(0, 60), kJitter = AboveUpTo(0, 10);

@@ -8,8 +8,10 @@
 #include <variant>
 
 #include "reckon/sim/body_velocity_sensor.h"
+#include "reckon/sim/depth_sensor.h"
 #include "reckon/sim/encoders.h"
 #include "reckon/sim/imu.h"
+#include "reckon/sim/pose_sensor.h"
 
 namespace reckon::sim {
 namespace {
@@ -42,6 +44,12 @@ struct Maker {
   std::unique_ptr<Sensor> operator()(const BodyVelocityConfig& config) const {
     return std::make_unique<BodyVelocitySensor>(spec.name, spec.id, spec.X_BS, config, seed,
                                                 step_ns);
+  }
+  std::unique_ptr<Sensor> operator()(const DepthConfig& config) const {
+    return std::make_unique<DepthSensor>(spec.name, spec.id, spec.X_BS, config, seed, step_ns);
+  }
+  std::unique_ptr<Sensor> operator()(const PoseConfig& config) const {
+    return std::make_unique<PoseSensor>(spec.name, spec.id, spec.X_BS, config, seed, step_ns);
   }
 };
 

@@ -17,7 +17,7 @@ TEST(Registry, FindsEachEntryByItsName) {
     EXPECT_TRUE(names.insert(entry.name).second) << entry.name << " twice";
     EXPECT_NE(entry.make(testing_estimator::TestSetup()), nullptr);
   }
-  EXPECT_EQ(names, (std::set<std::string_view>{"inekf", "mekf", "odometry"}));
+  EXPECT_EQ(names, (std::set<std::string_view>{"inekf", "iterated_inekf", "mekf", "odometry"}));
   EXPECT_EQ(FindEstimator("inekg"), nullptr);
 }
 
@@ -41,7 +41,7 @@ TEST(Names, AreThereForEveryDecisionAndRefusal) {
   for (int i = 0; i <= static_cast<int>(Decision::kRefused); ++i) {
     EXPECT_TRUE(names.insert(Name(static_cast<Decision>(i))).second);
   }
-  for (int i = 0; i <= static_cast<int>(Refusal::kUnused); ++i) {
+  for (int i = 0; i <= static_cast<int>(Refusal::kDuplicate); ++i) {
     EXPECT_TRUE(names.insert(Name(static_cast<Refusal>(i))).second);
   }
   EXPECT_EQ(names.count("unknown"), 0u);

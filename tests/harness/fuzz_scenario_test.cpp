@@ -23,6 +23,10 @@ const std::vector<std::string>& Seeds() {
       "  wheels: off\n  v: {type: body_velocity, frame: velocity_link, noise_m_per_s: [1, 1, 1]}\n"
       "faults:\n  - {sensor: imu, kind: dropout, at_s: 20, for_s: 0.5}\n"
       "  - {sensor: v, kind: time_jitter, at_s: 2, std_s: 0.01}\n",
+      "sensors:\n  d: {type: depth, frame: base_link, noise_m: 0.1}\n"
+      "  p: {type: pose, frame: base_link, orientation: false, noise_position_m: [1, 1, 2]}\n"
+      "estimators:\n  it: {type: iterated_inekf, iterations: 3, history_s: 1, noise: matched,\n"
+      "    gyro_filter: {source: ''}, standstill: {use: false}, initialisation: {kind: pose}}\n",
       "estimators:\n  riekf: {type: inekf, error: right, gate: {action: inflate}}\n"
       "  mekf: &m {type: mekf, noise: matched, initialisation: {kind: static}}\n  other: *m\n"
       "  tuned: {noise: {gyro_noise_density_rad_per_s_sqrt_hz: 6.1e-5}, sensors: [imu, wheels]}\n"

@@ -199,9 +199,10 @@ TEST(ProcessAnswer, IndefiniteWithEveryPairInOrder) {
   EXPECT_TRUE(ParseAnswer(With("covariance", numbers).dump(), kContext).belief);
 }
 
-TEST(ProcessAnswer, NineCorrectionsAreTooMany) {
+TEST(ProcessAnswer, MoreCorrectionsThanAReportHoldsAreTooMany) {
   json line = OneCorrection({1}, {1}, "accepted");
-  for (int i = 0; i < 8; ++i) line["corrections"].push_back(line["corrections"][0]);
+  for (int i = 0; i < estimator::kMaxCorrections; ++i)
+    line["corrections"].push_back(line["corrections"][0]);
   EXPECT_THROW(ParseAnswer(line.dump(), kContext), BadAnswer);
 }
 

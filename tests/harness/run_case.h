@@ -119,6 +119,16 @@ inline std::string BitsOf(const models::Measurement& measurement) {
   } else if (const auto* velocity = std::get_if<models::BodyVelocitySample>(&measurement.sample)) {
     bits.AddMatrix(velocity->v_WS_S);
     bits.AddMatrix(velocity->covariance);
+  } else if (const auto* depth = std::get_if<models::DepthSample>(&measurement.sample)) {
+    bits.AddMatrix(Eigen::Matrix<double, 1, 1>(depth->depth_m));
+  } else if (const auto* pose = std::get_if<models::PoseSample>(&measurement.sample)) {
+    bits.AddMatrix(pose->X_WS.R);
+    bits.AddMatrix(pose->X_WS.p);
+    bits.AddMatrix(pose->position_sigma_m);
+    bits.AddMatrix(pose->orientation_sigma_rad);
+    bits.Add(pose->has_orientation ? 1 : 0);
+  } else if (const auto* contacts = std::get_if<models::ContactSample>(&measurement.sample)) {
+    bits.AddMatrix(contacts->probability);
   }
   return bits.text();
 }

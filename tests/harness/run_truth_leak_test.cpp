@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "harness/run_case.h"
-#include "reckon/harness/replay.h"
+#include "reckon/harness/recording_log.h"
+#include "reckon/harness/replay_experiment.h"
 #include "reckon/harness/robot_file.h"
 
 namespace reckon::harness {
@@ -32,8 +33,11 @@ Streams Replayed(const std::filesystem::path& recording, const Scenario& scenari
     }
   }
   for (const auto& [name, config] : scenario.estimators) plan.estimators.push_back(name);
+  plan.truth = false;
   ground_truth::RunRecorder recorder(to, plan);
-  Replay(recording, scenario, recorder);
+  ReplayExperiment replay(scenario, LoadRobot(scenario).nominal,
+                          std::make_unique<RecordingLog>(recording), &recorder);
+  EXPECT_TRUE(replay.Run({}));
   recorder.Close();
   return EstimateStreams(to);
 }

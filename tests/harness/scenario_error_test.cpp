@@ -144,10 +144,10 @@ INSTANTIATE_TEST_SUITE_P(
              "motion: {path: velocity_profile, profile: [[1, 0, 0], [1, 0, 0]]}\n",
              "sc.yaml:1:56: error: '/motion/profile/1/0': expected times of at least 0 that rise, "
              "found '1'"},
-        Case{
-            "UnknownEstimator", "estimators: {a: {type: inekff}}\n",
-            "sc.yaml:1:24: error: '/estimators/a/type': expected inekf, mekf, odometry or process, "
-            "found 'inekff'; did you mean 'inekf'?"},
+        Case{"UnknownEstimator", "estimators: {a: {type: inekff}}\n",
+             "sc.yaml:1:24: error: '/estimators/a/type': expected inekf, iterated_inekf, mekf, "
+             "odometry or process, "
+             "found 'inekff'; did you mean 'inekf'?"},
         Case{"UnknownError", "estimators: {a: {type: inekf, error: lefft}}\n",
              "sc.yaml:1:38: error: '/estimators/a/error': expected right or left, found 'lefft'; "
              "did you mean 'left'?"},

@@ -209,16 +209,17 @@ TEST(ScenarioRead, NoiseIsNominalMatchedOrGiven) {
 TEST(ScenarioRead, EveryNoiseFieldHasAKey) {
   // A field that is added to the filters must be added to the description.
   std::string text = "estimators:\n  a:\n    noise:\n";
-  double value = 0.25;
+  constexpr double kStep = 0.03125;  // all of them within the narrowest bounds, 0 to 1
+  double value = kStep;
   for (const auto& field : estimator::NoiseFields()) {
     text += "      " + std::string(field.name) + ": " + std::to_string(value) + "\n";
-    value += 0.25;
+    value += kStep;
   }
   const Scenario s = Read(text);
-  value = 0.25;
+  value = kStep;
   for (const auto& field : estimator::NoiseFields()) {
     EXPECT_EQ(s.estimators.at("a").noise.*field.member, value) << field.name;
-    value += 0.25;
+    value += kStep;
   }
 }
 

@@ -267,6 +267,36 @@ TEST(Faults, ActOnEncodersAndBodyVelocity) {
   EXPECT_EQ(std::get<BodyVelocitySample>(m.sample).v_WS_S, Eigen::Vector3d::Constant(1.5));
 }
 
+TEST(Faults, ActOnDepthAndOnThePositionOfAPose) {
+  const auto after = [](FaultKind kind, double magnitude, const models::Sample& sample) {
+    FaultInjector faults("imu", std::vector{Fault(kind, magnitude)}, 1);
+    Measurement m{0, 1100 * kMs, 1100 * kMs, sample};
+    EXPECT_TRUE(faults.Apply(m));
+    return m.sample;
+  };
+  const auto depth = [&](FaultKind kind, double magnitude) {
+    return std::get<models::DepthSample>(after(kind, magnitude, models::DepthSample{3.0})).depth_m;
+  };
+  EXPECT_EQ(depth(FaultKind::kBiasStep, 0.5), 3.5);
+  EXPECT_EQ(depth(FaultKind::kScaleStep, 2.0), 6.0);
+  EXPECT_EQ(depth(FaultKind::kSaturation, 1.0), 1.0);
+  EXPECT_TRUE(std::isnan(depth(FaultKind::kNanBurst, 0.0)));
+  models::PoseSample pose;
+  pose.X_WS.p = {1.0, -2.0, 3.0};
+  const auto position = [&](FaultKind kind, double magnitude) {
+    const auto found = std::get<models::PoseSample>(after(kind, magnitude, pose));
+    EXPECT_EQ(found.X_WS.R, pose.X_WS.R);
+    EXPECT_EQ(found.position_sigma_m, pose.position_sigma_m);
+    return found.X_WS.p;
+  };
+  EXPECT_EQ(position(FaultKind::kBiasStep, 0.5), Eigen::Vector3d(1.5, -1.5, 3.5));
+  EXPECT_EQ(position(FaultKind::kSaturation, 1.5), Eigen::Vector3d(1.0, -1.5, 1.5));
+  EXPECT_TRUE(position(FaultKind::kNanBurst, 0.0).array().isNaN().all());
+  EXPECT_FALSE(HasChannels(DepthConfig{}, FaultChannels::kGyro));
+  EXPECT_FALSE(HasChannels(PoseConfig{}, FaultChannels::kRate));
+  EXPECT_TRUE(HasChannels(PoseConfig{}, FaultChannels::kAll));
+}
+
 TEST(Faults, OverlappingFaultsActInOrderOfTheSchedule) {
   const auto add_first =
       Pass({Fault(FaultKind::kBiasStep, 1.0), Fault(FaultKind::kScaleStep, 2.0)});

@@ -44,6 +44,17 @@ SensorSpec VelocitySpec() {
   return {"velocity", 2, SlantedMounting(), config};
 }
 
+SensorSpec DepthSpec() {
+  return {"depth", 3, SlantedMounting(), DepthConfig{.noise_m = 0.01, .offset_m = 0.1}};
+}
+
+SensorSpec PoseSpec() {
+  PoseConfig config;
+  config.noise_position_m.setConstant(0.01);
+  config.noise_orientation_rad.setConstant(0.01);
+  return {"gps", 4, SlantedMounting(), config};
+}
+
 /// All messages of the sensor `id` over two seconds of a rough ride.
 std::vector<Measurement> MessagesOf(models::SensorId id, const std::vector<SensorSpec>& sensors,
                                     const std::vector<FaultConfig>& faults = {},
@@ -72,6 +83,15 @@ bool SameBits(const models::EncoderSample& a, const models::EncoderSample& b) {
 bool SameBits(const models::BodyVelocitySample& a, const models::BodyVelocitySample& b) {
   return a.v_WS_S == b.v_WS_S;
 }
+bool SameBits(const models::DepthSample& a, const models::DepthSample& b) {
+  return a.depth_m == b.depth_m;
+}
+bool SameBits(const models::PoseSample& a, const models::PoseSample& b) {
+  return a.X_WS.R == b.X_WS.R && a.X_WS.p == b.X_WS.p;
+}
+bool SameBits(const models::ContactSample& a, const models::ContactSample& b) {
+  return a.probability == b.probability;
+}
 
 bool SameBits(const std::vector<Measurement>& a, const std::vector<Measurement>& b) {
   if (a.size() != b.size()) return false;
@@ -87,19 +107,24 @@ bool SameBits(const std::vector<Measurement>& a, const std::vector<Measurement>&
 }
 
 TEST(SensorSuite, MessagesCarryTheirSensorsId) {
-  const std::vector<SensorSpec> sensors{ImuSpec("imu"), EncoderSpec(), VelocitySpec()};
+  const std::vector<SensorSpec> sensors{ImuSpec("imu"), EncoderSpec(), VelocitySpec(), DepthSpec(),
+                                        PoseSpec()};
   EXPECT_EQ(MessagesOf(0, sensors).size(), 400U);
   EXPECT_EQ(MessagesOf(1, sensors).size(), 100U);
   EXPECT_EQ(MessagesOf(2, sensors).size(), 40U);
+  EXPECT_EQ(MessagesOf(3, sensors).size(), 20U);
+  EXPECT_EQ(MessagesOf(4, sensors).size(), 20U);
 }
 
 TEST(SensorSuite, AddingOrChangingASensorLeavesTheOthersBitIdentical) {
   SensorSpec second = ImuSpec("imu_2", 500.0);
-  second.id = 3;
-  const std::vector<SensorSpec> few{ImuSpec("imu"), EncoderSpec(), VelocitySpec()};
-  const std::vector<SensorSpec> many{second, VelocitySpec(), ImuSpec("imu"), EncoderSpec()};
+  second.id = 5;
+  const std::vector<SensorSpec> few{ImuSpec("imu"), EncoderSpec(), VelocitySpec(), DepthSpec(),
+                                    PoseSpec()};
+  const std::vector<SensorSpec> many{second,         PoseSpec(),     DepthSpec(),
+                                     VelocitySpec(), ImuSpec("imu"), EncoderSpec()};
   const FaultConfig fault{.sensor = "imu_2", .kind = FaultKind::kOutlierBurst, .magnitude = 1.0};
-  for (models::SensorId id = 0; id < 3; ++id) {
+  for (models::SensorId id = 0; id < few.size(); ++id) {
     const auto expected = MessagesOf(id, few);
     EXPECT_TRUE(SameBits(MessagesOf(id, many, {fault}), expected)) << "sensor " << id;
     EXPECT_FALSE(SameBits(MessagesOf(id, few, {}, 2), expected)) << "control: another seed";

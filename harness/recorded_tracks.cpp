@@ -1,10 +1,6 @@
-#include "reckon/harness/replay.h"
-
-#include <stdexcept>
+#include "reckon/harness/recorded_tracks.h"
 
 #include "reckon/ground_truth/recording_reader.h"
-#include "reckon/harness/bench.h"
-#include "reckon/harness/robot_file.h"
 #include "reckon/harness/truth_history.h"
 
 namespace reckon::harness {
@@ -17,8 +13,10 @@ using ground_truth::Truth;
 constexpr std::size_t kPairingRows = 4096;
 
 /// Pairs each estimate with truth at its stamp, one pass over both.
-void PairSamples(const ground_truth::RecordingReader& reader, std::size_t estimator, Track& track) {
+void PairSamples(const ground_truth::RecordingReader& reader, std::size_t estimator,
+                 bool with_holes, Track& track) {
   TruthHistory history(kPairingRows);
+  if (with_holes) history.AllowHoles();
   auto truths = reader.ReadTruth();
   auto estimates = reader.ReadEstimates(estimator);
   std::optional<Truth> newest = truths.Next();
@@ -34,12 +32,12 @@ void PairSamples(const ground_truth::RecordingReader& reader, std::size_t estima
 
 }  // namespace
 
-std::map<std::string, Track> ReadTracks(const std::filesystem::path& recording) {
+std::map<std::string, Track> ReadTracks(const std::filesystem::path& recording, bool with_holes) {
   const ground_truth::RecordingReader reader(recording);
   std::map<std::string, Track> tracks;
   for (std::size_t i = 0; i < reader.estimators().size(); ++i) {
     Track& track = tracks[reader.estimators()[i]];
-    PairSamples(reader, i, track);
+    PairSamples(reader, i, with_holes, track);
     auto corrections = reader.ReadCorrections(i);
     while (const auto correction = corrections.Next()) track.Add(*correction);
     auto refusals = reader.ReadRefusals(i);
@@ -48,18 +46,6 @@ std::map<std::string, Track> ReadTracks(const std::filesystem::path& recording) 
     }
   }
   return tracks;
-}
-
-void Replay(const std::filesystem::path& recording, const Scenario& scenario,
-            ground_truth::RunRecorder& recorder) {
-  const ground_truth::RecordingReader reader(recording);
-  const auto prior = reader.ReadPrior(0);
-  if (!prior) throw std::invalid_argument(recording.string() + " holds no prior to start from");
-  Bench bench(scenario, LoadRobot(scenario).nominal, &recorder);
-  bench.Start(*prior);
-  auto measurements = reader.ReadMeasurements();
-  while (const auto measurement = measurements.Next()) bench.Deliver(*measurement);
-  bench.Finish();
 }
 
 }  // namespace reckon::harness

@@ -1,0 +1,27 @@
+#include "reckon/estimator/contact_model.h"
+
+namespace reckon::estimator {
+
+FootReading ReadFoot(const models::LegKinematics& leg, const models::EncoderVector& angles,
+                     const Eigen::Vector3d& p_BI, const Noise& noise) {
+  const models::FootPosition foot = leg.Evaluate(angles);
+  FootReading reading;
+  reading.h = foot.p_BF - p_BI;
+  for (Eigen::Index k = 0; k < foot.J.cols(); ++k) {
+    const Eigen::Vector3d column = noise.joint_angle_rad * foot.J.col(k);
+    reading.N += column * column.transpose();
+  }
+  reading.N.diagonal().array() += noise.foot_position_m * noise.foot_position_m;
+  return reading;
+}
+
+Linearisation<3> LinearisedContact(const FootReading& y, Slot foot, const NavigationState& x) {
+  Linearisation<3> m;
+  m.z = x.R * y.h - (x.At(foot) - x.p);
+  m.N = Turned(x.R, y.N);
+  m.Minus(kPositionSlot);
+  m.Plus(foot);
+  return m;
+}
+
+}  // namespace reckon::estimator

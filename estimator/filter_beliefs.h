@@ -1,0 +1,43 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "reckon/estimator/gate.h"
+#include "reckon/estimator/gyro_filter.h"
+#include "reckon/estimator/navigation_state.h"
+#include "reckon/estimator/setup.h"
+
+namespace reckon::estimator {
+
+/// What an IMU filter was told, worked out once: the constants of every step. I has the IMU's
+/// origin and the body's axes.
+struct FilterBeliefs {
+  /// Throws std::invalid_argument if the suite has no IMU or one without a period, for a sensor of
+  /// legs or of the gyro filter that it has not, and for what CheckSetup refuses.
+  explicit FilterBeliefs(const Setup& told);
+
+  Setup setup;
+  InnovationGate gate;
+  ProcessNoise noise;
+  GyroFilterNoise stage_noise;
+  Eigen::Vector3d gravity;
+  models::SensorId imu;
+  models::TimeNs period_ns;
+  Eigen::Matrix3d R_BS_imu;        ///< samples are rotated by it once
+  Eigen::Vector3d p_BI;            ///< the IMU's origin in the body
+  std::vector<models::Pose> X_IS;  ///< by sensor id; of the wheels' encoders the drive's frame
+
+  /// What a filter of these beliefs could do with a measurement that is not its IMU's: kNone if it
+  /// can use it, else why not. Does not allocate.
+  Refusal WhyUseless(const models::Measurement& measurement) const;
+
+  /// The most corrections that one measurement can make.
+  int MostCorrections(const models::Measurement& measurement) const;
+
+  std::optional<models::SensorId> wheels, leg_encoders, contacts, gyro_source;
+  bool gyro_source_is_imu = false;
+};
+
+}  // namespace reckon::estimator

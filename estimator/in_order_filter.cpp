@@ -1,0 +1,397 @@
+#include "reckon/estimator/in_order_filter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reckon/estimator/depth_model.h"
+#include "reckon/estimator/height_model.h"
+#include "reckon/estimator/iterated_correction.h"
+#include "reckon/estimator/kalman.h"
+#include "reckon/estimator/left_invariant_ekf.h"
+#include "reckon/estimator/multiplicative_ekf.h"
+#include "reckon/estimator/pose_model.h"
+#include "reckon/estimator/reanchoring.h"
+#include "reckon/estimator/right_invariant_ekf.h"
+#include "reckon/estimator/standstill_model.h"
+#include "reckon/estimator/wheel_model.h"
+#include "reckon/estimator/yaw_rate_model.h"
+
+namespace reckon::estimator {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+using models::Measurement;
+using models::TimeNs;
+
+/// A motion nobody saw, one sigma of a constant rate and acceleration beside the held sample.
+constexpr double kUnseenRate = 0.5;          ///< rad/s
+constexpr double kUnseenAcceleration = 3.0;  ///< m/s²
+/// No step is longer: the covariance of a bridged gap sees its nonlinearity.
+constexpr TimeNs kLongestStep = 50'000'000;
+/// A clipped sample says little: its noise is taken this many times larger.
+constexpr double kSaturatedFactor = 100.0;
+/// A foot that is more probably in contact than not stands.
+constexpr double kStands = 0.5;
+double LargestSigma(const LaneMatrix& P) {
+  return std::sqrt(std::max({P(0, 0), P(1, 1), P(2, 2)}));
+}
+
+/// What a correction looks like before a gate judges it. Innovations of velocities, contacts and
+/// rates are shown in the body's axes, where a reader expects them.
+template <int kRows>
+Correction Described(const KalmanCorrection<kRows>& kalman, const Linearisation<kRows>& m,
+                     const Matrix3d& R) {
+  Correction correction;
+  correction.rows = kRows;
+  correction.nis = kalman.nis();
+  if constexpr (kRows == 3) {
+    correction.innovation = R.transpose() * m.z;
+    correction.covariance = R.transpose() * kalman.S() * R;
+  } else {
+    correction.innovation[0] = m.z(0);
+    correction.covariance(0, 0) = kalman.S()(0);
+  }
+  return correction;
+}
+
+void Forget(ErrorCovariance& P, ErrorBlock block) {
+  P.middleRows<3>(block).setZero();
+  P.middleCols<3>(block).setZero();
+}
+
+}  // namespace
+
+template <class Core>
+InOrderFilter<Core>::InOrderFilter(const FilterBeliefs& beliefs)
+    : beliefs_(&beliefs),
+      stage_(beliefs.stage_noise),
+      rest_(beliefs.setup.noise, models::Seconds(beliefs.period_ns), beliefs.setup.gravity_m_s2) {}
+
+template <class Core>
+void InOrderFilter<Core>::Start(TimeNs t_ns, const NavigationState& x, const ErrorCovariance& P) {
+  ErrorCovariance kept = P;
+  if (!beliefs_->setup.estimate_gyro_bias) Forget(kept, kGyroBias);
+  if (!beliefs_->setup.estimate_accel_bias) Forget(kept, kAccelBias);
+  core_.Start(x, kept);
+  if (beliefs_->gyro_source_is_imu && beliefs_->setup.estimate_gyro_bias) StartMeanBias();
+  stage_.Start();
+  t_ns_ = covered_from_ns_ = t_ns;
+  sample_s_ = unseen_s_ = 0.0;
+  rest_.Restart();
+  standing_.fill(false);
+}
+
+/// With a second IMU the filter's bias is the mean of two: of the other nothing is known but that
+/// it is small.
+template <class Core>
+void InOrderFilter<Core>::StartMeanBias() {
+  const LaneMatrix half = LaneMatrix::Diagonal(0.5);
+  core_.P().MapRow(kGyroBiasSlot, half);
+  core_.x().gyro_bias *= 0.5;
+  const double sigma = beliefs_->setup.gyro_filter.bias_sigma_rad_s;
+  core_.P()(kGyroBiasSlot, kGyroBiasSlot) += LaneMatrix::Diagonal(0.25 * sigma * sigma);
+}
+
+template <class Core>
+TimeNs InOrderFilter<Core>::Hold(TimeNs valid_ns, const models::ImuSample& sample) {
+  // Stamps that jitter by less than half a sample are taken at their word: the sample covers what
+  // lies between them.
+  const TimeNs from_ns = valid_ns - sample.interval_ns;
+  const bool gap = from_ns - t_ns_ > sample.interval_ns / 2;
+  covered_from_ns_ = gap ? from_ns : t_ns_;
+  unseen_s_ = models::Seconds(covered_from_ns_ - t_ns_);
+  gyro_ = beliefs_->R_BS_imu * sample.gyro_rad_s;
+  accel_ = beliefs_->R_BS_imu * sample.accel_m_s2;
+  sample_s_ = models::Seconds(sample.interval_ns);
+  gyro_saturated_ = sample.gyro_saturated;
+  accel_saturated_ = sample.accel_saturated;
+  if (beliefs_->gyro_source) stage_.Advance(gyro_, models::Seconds(valid_ns - t_ns_));
+  if (gap) rest_.Restart();
+  return covered_from_ns_ - t_ns_;
+}
+
+template <class Core>
+ProcessNoise InOrderFilter<Core>::NoiseAt(TimeNs t_ns) const {
+  ProcessNoise noise = beliefs_->noise;
+  if (t_ns < covered_from_ns_) {
+    noise.gyro += kUnseenRate * kUnseenRate * unseen_s_;
+    noise.accel += kUnseenAcceleration * kUnseenAcceleration * unseen_s_;
+    return noise;
+  }
+  if (beliefs_->gyro_source) noise.gyro = stage_.white_variance() * sample_s_;
+  if (gyro_saturated_) noise.gyro *= kSaturatedFactor * kSaturatedFactor;
+  if (accel_saturated_) noise.accel *= kSaturatedFactor * kSaturatedFactor;
+  return noise;
+}
+
+template <class Core>
+void InOrderFilter<Core>::AdvanceTo(TimeNs t_ns) {
+  const double slip = beliefs_->setup.noise.foot_slip_m_per_s_sqrt_hz;
+  while (t_ns_ < t_ns) {
+    TimeNs until_ns = std::min(t_ns_ + kLongestStep, t_ns);
+    if (t_ns_ < covered_from_ns_) until_ns = std::min(until_ns, covered_from_ns_);
+    const double dt = models::Seconds(until_ns - t_ns_);
+    const Increment u(Rate() - core_.x().gyro_bias, accel_ - core_.x().accel_bias, dt);
+    core_.Propagate(u, beliefs_->gravity, NoiseAt(t_ns_));
+    for (const Slot slot : core_.P().active()) {
+      if (IsFoot(slot)) core_.P()(slot, slot) += LaneMatrix::Diagonal(slip * slip * dt);
+    }
+    t_ns_ = until_ns;
+  }
+}
+
+template <class Core>
+void InOrderFilter<Core>::CoastTo(TimeNs t_ns) {
+  covered_from_ns_ = t_ns;
+  unseen_s_ = models::Seconds(t_ns - t_ns_);
+  AdvanceTo(t_ns);
+}
+
+template <class Core>
+TurnRate InOrderFilter<Core>::Turn() const {
+  double variance = sample_s_ > 0.0 ? beliefs_->noise.gyro / sample_s_ : 0.0;
+  if (beliefs_->gyro_source) variance = stage_.white_variance();
+  return {Rate() - core_.x().gyro_bias, variance};
+}
+
+template <class Core>
+void InOrderFilter<Core>::Refine(const Measurement& m, Report* report) {
+  if (const auto* imu = std::get_if<models::ImuSample>(&m.sample)) {
+    return RefineByImu(m, *imu, report);
+  }
+  const models::WheelDrive& wheels = *beliefs_->setup.suite.wheels;
+  const auto rates = MeanRates(std::get<models::EncoderSample>(m.sample), wheels);
+  const double sigma = beliefs_->setup.noise.wheel_yaw_rate_rad_per_s;
+  const double yaw_rate = WheelYawRate(*rates, wheels), w_z = stage_.rate().z();
+  const double variance = sigma * sigma + stage_.white_variance(2);
+  const auto applied = Apply(
+      m.valid_ns, m.sensor,
+      [&](const NavigationState& x) { return LinearisedYawRate(yaw_rate, w_z, variance, x); },
+      report);
+  if (applied) stage_.CorrectNoise(2, applied->innovation[0], applied->covariance(0, 0));
+}
+
+template <class Core>
+void InOrderFilter<Core>::RefineByImu(const Measurement& m, const models::ImuSample& y,
+                                      Report* report) {
+  const Vector3d beta = beliefs_->X_IS[m.sensor].R * y.gyro_rad_s;
+  const double variance = beliefs_->noise.gyro / models::Seconds(y.interval_ns);
+  Correction correction{.t_ns = m.valid_ns, .sensor = m.sensor, .rows = 3};
+  for (int i = 0; i < 3; ++i) {
+    const auto [z, S] = stage_.Expect(i, beta[i], variance);
+    correction.innovation[i] = z;
+    correction.covariance(i, i) = S;
+    correction.nis += z * z / S;
+  }
+  correction.decision = beliefs_->gate.Judge(3, correction.nis);
+  // There is no half belief in a second rate: its noise is the first one's.
+  if (correction.decision == Decision::kInflated) correction.decision = Decision::kRejected;
+  if (report != nullptr) report->Add(correction);
+  if (correction.decision == Decision::kRejected) return;
+  for (int i = 0; i < 3; ++i) stage_.Correct(i, beta[i], variance);
+}
+
+template <class Core>
+void InOrderFilter<Core>::Correct(const Measurement& measurement, Report* report) {
+  std::visit([&](const auto& sample) { Use(measurement, sample, report); }, measurement.sample);
+}
+
+template <class Core>
+void InOrderFilter<Core>::Use(const Measurement& m, const models::BodyVelocitySample& y,
+                              Report* report) {
+  models::BodyVelocitySample scaled = y;
+  const double scale = beliefs_->setup.noise.body_velocity_scale;
+  scaled.covariance *= scale * scale;
+  Apply(
+      m.valid_ns, m.sensor,
+      [&](const NavigationState& x) {
+        return LinearisedVelocity(scaled, beliefs_->X_IS[m.sensor], Turn(), x);
+      },
+      report);
+}
+
+template <class Core>
+void InOrderFilter<Core>::Use(const Measurement& m, const models::EncoderSample& y,
+                              Report* report) {
+  if (RestAverage::IsMotion(y.rate_rad_s.cwiseAbs().maxCoeff())) rest_.Restart();
+  if (m.sensor == beliefs_->leg_encoders) return UseLegs(m, y, report);
+  const models::WheelDrive& wheels = *beliefs_->setup.suite.wheels;
+  const auto velocity = WheelVelocity(*MeanRates(y, wheels), wheels, beliefs_->setup.noise);
+  Apply(
+      m.valid_ns, m.sensor,
+      [&](const NavigationState& x) {
+        return LinearisedVelocity(velocity, beliefs_->X_IS[m.sensor], Turn(), x);
+      },
+      report);
+  if (!beliefs_->setup.floor.use) return;
+  const Vector3d r_IB = -beliefs_->p_BI;
+  UseFloor(
+      m, kPositionSlot, [r_IB](const NavigationState& x) { return x.p + x.R * r_IB; }, report);
+}
+
+template <class Core>
+void InOrderFilter<Core>::UseLegs(const Measurement& m, const models::EncoderSample& y,
+                                  Report* report) {
+  const auto& legs = beliefs_->setup.suite.legs->legs;
+  for (std::size_t i = 0; i < legs.size(); ++i) {
+    if (!standing_[i]) continue;
+    const Slot foot = FootSlot(static_cast<int>(i));
+    const FootReading reading =
+        ReadFoot(legs[i], y.angle_rad, beliefs_->p_BI, beliefs_->setup.noise);
+    if (core_.P().IsActive(foot)) {
+      Apply(
+          m.valid_ns, m.sensor,
+          [&](const NavigationState& x) { return LinearisedContact(reading, foot, x); }, report);
+      continue;
+    }
+    AddFoot(core_, reading, foot);
+    if (!beliefs_->setup.floor.use) continue;
+    UseFloor(
+        m, foot, [foot](const NavigationState& x) { return x.At(foot); }, report);
+  }
+}
+
+template <class Core>
+template <class Point>
+void InOrderFilter<Core>::UseFloor(const Measurement& m, Slot slot, const Point& point,
+                                   Report* report) {
+  const double height_m = beliefs_->setup.floor.height_m;
+  const double sigma_m = beliefs_->setup.noise.floor_height_m;
+  Apply(
+      m.valid_ns, m.sensor,
+      [&](const NavigationState& x) { return LinearisedHeight(height_m, sigma_m, slot, point(x)); },
+      report);
+}
+
+template <class Core>
+void InOrderFilter<Core>::Use(const Measurement& m, const models::DepthSample& y, Report* report) {
+  Apply(
+      m.valid_ns, m.sensor,
+      [&](const NavigationState& x) {
+        return LinearisedDepth(y, beliefs_->X_IS[m.sensor].p, beliefs_->setup.noise.depth_m, x);
+      },
+      report);
+}
+
+template <class Core>
+void InOrderFilter<Core>::Use(const Measurement& m, const models::PoseSample& y, Report* report) {
+  const models::Pose& X_IS = beliefs_->X_IS[m.sensor];
+  const double scale = beliefs_->setup.noise.pose_scale;
+  Apply(
+      m.valid_ns, m.sensor,
+      [&](const NavigationState& x) { return LinearisedPosition(y, X_IS, scale, x); }, report);
+  const auto yaw = LinearisedYaw(y, X_IS, scale, core_.x());
+  if (!yaw) return;
+  Apply(
+      m.valid_ns, m.sensor,
+      [&](const NavigationState& x) { return LinearisedYaw(y, X_IS, scale, x).value_or(*yaw); },
+      report);
+}
+
+template <class Core>
+void InOrderFilter<Core>::Use(const Measurement& /*m*/, const models::ContactSample& y,
+                              Report* /*report*/) {
+  for (Eigen::Index i = 0; i < y.probability.size(); ++i) {
+    standing_[i] = y.probability[i] > kStands;
+    const Slot foot = FootSlot(static_cast<int>(i));
+    if (!standing_[i] && core_.P().IsActive(foot)) core_.P().RemoveFoot(foot);
+  }
+}
+
+template <class Core>
+void InOrderFilter<Core>::EndSample(Report* report) {
+  const Setup& setup = beliefs_->setup;
+  if (!setup.standstill.use) return;
+  rest_.Add(gyro_, accel_, sample_s_);
+  if (!rest_.CanTell()) return;
+  const Vector3d bias_of_first = BiasOfFirst();
+  if (rest_.LooksMoving({bias_of_first, core_.x().accel_bias,
+                         LargestSigma(core_.P()(kGyroBiasSlot, kGyroBiasSlot)),
+                         LargestSigma(core_.P()(kAccelBiasSlot, kAccelBiasSlot))})) {
+    return rest_.Restart();
+  }
+  if (rest_.seconds() + 0.5 * sample_s_ < setup.standstill.window_s) return;
+  Apply(
+      t_ns_, beliefs_->imu,
+      [&](const NavigationState& x) {
+        return LinearisedZeroVelocity(setup.noise.standstill_m_per_s, x);
+      },
+      report);
+  if (setup.estimate_gyro_bias) {
+    const double sigma = setup.noise.standstill_rad_per_s;
+    const double variance = rest_.gyro_sigma() * rest_.gyro_sigma() / rest_.count() + sigma * sigma;
+    const Vector3d w = rest_.gyro() - bias_of_first + core_.x().gyro_bias;
+    Apply(
+        t_ns_, beliefs_->imu,
+        [&](const NavigationState& x) { return LinearisedZeroRate(w, variance, x); }, report);
+  }
+  rest_.Restart();
+}
+
+template <class Core>
+template <class Model>
+std::optional<Correction> InOrderFilter<Core>::Apply(TimeNs t_ns, models::SensorId sensor,
+                                                     const Model& model, Report* report) {
+  const auto linearised = model(core_.x());
+  constexpr int kRows = std::decay_t<decltype(linearised)>::Vector::RowsAtCompileTime;
+  const auto& own = Core::Convert(linearised, core_.x());
+  KalmanCorrection<kRows> kalman(core_.P(), own);
+  Correction correction = Described(kalman, own, core_.x().R);
+  correction.t_ns = t_ns;
+  correction.sensor = sensor;
+  correction.decision = beliefs_->gate.Judge(kRows, correction.nis);
+  if (!std::isfinite(correction.nis)) {
+    correction.decision = Decision::kRefused;
+    correction.reason = Refusal::kNotFinite;
+  }
+  if (report != nullptr) report->Add(correction);
+  if (correction.decision == Decision::kRejected || correction.decision == Decision::kRefused) {
+    return std::nullopt;
+  }
+  if (correction.decision == Decision::kInflated) {
+    kalman.Inflate(beliefs_->gate.Limit(kRows));
+  } else if constexpr (Core::kForm == ErrorForm::kRightInvariant) {
+    const int iterations = beliefs_->setup.iterations;
+    if (iterations > 1) {
+      CorrectIterated<kRows>(core_, model, iterations);
+      return correction;
+    }
+  }
+  core_.Retract(kalman.Gain());
+  kalman.UpdateCovariance(core_.P());
+  return correction;
+}
+
+template <class Core>
+void InOrderFilter<Core>::StartAgain(TimeNs t_ns, const Vector3d& up_I) {
+  NavigationState x = core_.x();
+  x.gyro_bias = BiasOfFirst();
+  const Reanchored after =
+      Reanchor(x, core_.P().Dense(), beliefs_->noise, up_I, models::Seconds(t_ns - t_ns_));
+  Start(t_ns, after.x, after.P);
+}
+
+template <class Core>
+Estimate InOrderFilter<Core>::Belief() const {
+  const NavigationState& x = core_.x();
+  const TurnRate turn = Turn();
+  const Vector3d r_IB = -beliefs_->p_BI;
+  Estimate estimate;
+  estimate.t_ns = t_ns_;
+  estimate.X_WB = {x.R, x.p + x.R * r_IB};
+  estimate.v_WB = x.v + x.R * turn.w_rad_s.cross(r_IB);
+  estimate.gyro_bias_rad_s = BiasOfFirst();
+  estimate.accel_bias_m_s2 = x.accel_bias;
+  estimate.form = Core::kForm;
+  estimate.has_covariance = true;
+  estimate.has_biases = true;
+  estimate.covariance = core_.BodyCovariance(r_IB, turn.w_rad_s, turn.variance);
+  return estimate;
+}
+
+template class InOrderFilter<RightInvariantEkf>;
+template class InOrderFilter<LeftInvariantEkf>;
+template class InOrderFilter<MultiplicativeEkf>;
+
+}  // namespace reckon::estimator

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "reckon/models/pose.h"
+#include "reckon/sim/random_stream.h"
+#include "reckon/sim/sample_clock.h"
+#include "reckon/sim/sensor.h"
+#include "reckon/sim/sensor_config.h"
+
+namespace reckon::sim {
+
+/// A pressure sensor: with z_S the height of its own origin in W, a sample is
+///     y = r round((−z_S + b + n) / r),   r = resolution_m,
+/// unquantised if r is zero; b ~ N(0, offset_m²) is drawn once a run, n is white with the
+/// configured σ per sample. Where the sensor's axes point does not matter.
+/// Draws come from "<name>.noise" (index = sample) and "<name>.offset".
+class DepthSensor : public Sensor {
+ public:
+  /// Throws std::invalid_argument for a negative or non-finite entry.
+  DepthSensor(const std::string& name, models::SensorId id, const models::Pose& X_BS,
+              const DepthConfig& config, std::uint64_t seed, models::TimeNs physics_step_ns);
+
+  void Observe(const MotionWindow& motion, std::vector<models::Measurement>& out) override;
+
+ private:
+  models::SensorId id_;
+  Eigen::Vector3d p_BS_;
+  SampleClock clock_;
+  double sigma_, resolution_, offset_;
+  RandomStream noise_draws_;
+};
+
+}  // namespace reckon::sim
