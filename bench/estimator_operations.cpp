@@ -1,5 +1,7 @@
 #include "estimator_operations.h"
 
+#include "reckon/estimator/contact_model.h"
+#include "reckon/estimator/depth_model.h"
 #include "reckon/estimator/kalman.h"
 
 namespace reckon::bench {
@@ -18,7 +20,7 @@ const Vector3d kGyro(0.1, -0.2, 0.3);
 const Vector3d kAccel(0.3, 0.2, 9.8);
 constexpr double kStep = 0.0025;
 constexpr double kGyroVariance = 1e-6;
-constexpr double kDepth = -1.9;
+const models::DepthSample kDepth{1.9};
 constexpr double kDepthSigma = 0.01;
 const estimator::ProcessNoise kNoise{2.5e-9, 4e-8, 1e-10, 1e-8};
 const Vector3d kMounting(0.2, -0.05, 0.1);  ///< of sensors and of the body's origin, in I
@@ -35,27 +37,6 @@ estimator::ErrorCovariance StartCovariance() {
   return sigma.asDiagonal() * correlation * sigma.asDiagonal();
 }
 
-/// y = e_zᵀ p: h = (p_y, −p_x, 0) at θ and e_z at p.
-Linearisation<1> LinearisedDepth(double y, double sigma, const estimator::NavigationState& x) {
-  Linearisation<1> m;
-  m.z(0) = y - x.p.z();
-  m.N(0) = sigma * sigma;
-  m.Block(estimator::kThetaSlot, Eigen::RowVector3d(x.p.y(), -x.p.x(), 0.0));
-  m.Block(estimator::kPositionSlot, Eigen::RowVector3d(0.0, 0.0, 1.0));
-  return m;
-}
-
-/// Rᵀ (d − p) = h + n: −I at p, +I at d.
-Linearisation<3> LinearisedFoot(const Vector3d& h, const Matrix3d& N, Slot foot,
-                                const estimator::NavigationState& x) {
-  Linearisation<3> m;
-  m.z = x.R * h - (x.At(foot) - x.p);
-  m.N = estimator::Turned(x.R, N);
-  m.Minus(estimator::kPositionSlot);
-  m.Plus(foot);
-  return m;
-}
-
 }  // namespace
 
 EstimatorOperations::EstimatorOperations(int feet) {
@@ -65,14 +46,18 @@ EstimatorOperations::EstimatorOperations(int feet) {
   x.p = {10.0, -5.0, -2.0};
   core_.Start(x, StartCovariance());
   for (int i = 0; i < feet; ++i) {
-    foot_in_I_[i] = {i < 2 ? 0.25 : -0.25, i % 2 == 0 ? 0.15 : -0.15, -0.3};
+    feet_[i] = {{i < 2 ? 0.25 : -0.25, i % 2 == 0 ? 0.15 : -0.15, -0.3}, kFootNoise};
     const Slot slot = estimator::FootSlot(i);
     core_.P().AddFoot(slot, estimator::ToLanes(kFootNoise));
-    core_.x().At(slot) = x.p + x.R * foot_in_I_[i];
+    core_.x().At(slot) = x.p + x.R * feet_[i].h;
   }
   velocity_.v_WS_S = {1.1, 0.0, 0.0};
   velocity_.covariance = Vector3d(1e-4, 2e-4, 4e-4).asDiagonal();
   X_IS_ = {estimator::Exp({0.0, 0.0, 0.5}), kMounting};
+}
+
+estimator::TurnRate EstimatorOperations::Turn() const {
+  return {kGyro - core_.x().gyro_bias, kGyroVariance};
 }
 
 void EstimatorOperations::Predict() {
@@ -80,28 +65,33 @@ void EstimatorOperations::Predict() {
   core_.Propagate({kGyro - x.gyro_bias, kAccel - x.accel_bias, kStep}, kGravity, kNoise);
 }
 
-void EstimatorOperations::CorrectVelocity() {
-  const estimator::TurnRate turn{kGyro - core_.x().gyro_bias, kGyroVariance};
-  const auto m = LinearisedVelocity(velocity_, X_IS_, turn, core_.x());
-  const KalmanCorrection<3> kalman(core_.P(), core_.Convert(m, core_.x()));
+template <int kRows>
+void EstimatorOperations::Correct(const Linearisation<kRows>& m) {
+  const KalmanCorrection<kRows> kalman(core_.P(), core_.Convert(m, core_.x()));
+  nis_ = kalman.nis();
   core_.Retract(kalman.Gain());
   kalman.UpdateCovariance(core_.P());
 }
 
+void EstimatorOperations::CorrectVelocity() {
+  Correct(LinearisedVelocity(velocity_, {X_IS_.R, Vector3d::Zero()}, Turn(), core_.x()));
+}
+
+void EstimatorOperations::CorrectVelocityOnLeverArm() {
+  Correct(LinearisedVelocity(velocity_, X_IS_, Turn(), core_.x()));
+}
+
 void EstimatorOperations::CorrectDepth() {
-  const auto m = LinearisedDepth(kDepth, kDepthSigma, core_.x());
-  const KalmanCorrection<1> kalman(core_.P(), core_.Convert(m, core_.x()));
-  core_.Retract(kalman.Gain());
-  kalman.UpdateCovariance(core_.P());
+  Correct(LinearisedDepth(kDepth, kMounting, kDepthSigma, core_.x()));
 }
 
 void EstimatorOperations::CorrectFeet() {
   SlotVector sum{};
   for (const Slot foot : core_.P().slots().feet()) {
-    auto m =
-        LinearisedFoot(foot_in_I_[foot - estimator::kFirstFootSlot], kFootNoise, foot, core_.x());
+    auto m = LinearisedContact(feet_[foot - estimator::kFirstFootSlot], foot, core_.x());
     m.MoveBy(sum);
     const KalmanCorrection<3> kalman(core_.P(), m);
+    nis_ = kalman.nis();
     const SlotVector increment = kalman.Gain();
     for (const Slot slot : core_.P().active()) sum[slot] += increment[slot];
     kalman.UpdateCovariance(core_.P());
@@ -125,7 +115,8 @@ const std::vector<Operation>& AllOperations() {
   static const std::vector<Operation> kAll{
       {"predict, 15 states", 0, &E::Predict},
       {"predict, 4 feet (27)", 4, &E::Predict},
-      {"velocity, 15 states", 0, &E::CorrectVelocity},
+      {"velocity at the IMU, 15 states", 0, &E::CorrectVelocity},
+      {"velocity on a lever arm, 15 states", 0, &E::CorrectVelocityOnLeverArm},
       {"depth, 15 states", 0, &E::CorrectDepth},
       {"4 feet in sequence (27)", 4, &E::CorrectFeet},
       {"add and remove a foot", 0, &E::AddAndRemoveFoot},

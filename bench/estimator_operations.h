@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "reckon/estimator/contact_model.h"
 #include "reckon/estimator/estimate.h"
 #include "reckon/estimator/right_invariant_ekf.h"
 #include "reckon/estimator/velocity_model.h"
@@ -20,9 +21,12 @@ class EstimatorOperations {
   /// One IMU sample: series, mean, exact covariance.
   void Predict();
 
-  /// A velocity at a mounted sensor: linearisation with its lever arm, NIS, gain, retraction and
-  /// the structured Joseph update.
+  /// A velocity at the IMU's place in a sensor's axes: linearisation, NIS, gain, retraction and the
+  /// structured Joseph update.
   void CorrectVelocity();
+
+  /// The same of a sensor elsewhere: the gyroscope's bias is seen too.
+  void CorrectVelocityOnLeverArm();
 
   /// A depth likewise: one row, which sees θ and p.
   void CorrectDepth();
@@ -38,11 +42,16 @@ class EstimatorOperations {
   void BodyCovariance();
 
  private:
+  estimator::TurnRate Turn() const;
+  template <int kRows>
+  void Correct(const estimator::Linearisation<kRows>& m);
+
   estimator::RightInvariantEkf core_;
   estimator::ErrorCovariance body_;
-  std::array<Eigen::Vector3d, estimator::kMaxFeet> foot_in_I_;  ///< as leg kinematics give them
+  std::array<estimator::FootReading, estimator::kMaxFeet> feet_;
   models::BodyVelocitySample velocity_;
   models::Pose X_IS_;
+  double nis_ = 0.0;
 };
 
 /// An operation by its name in tables, and the feet of the state it works on.

@@ -23,34 +23,6 @@ class SlotSet {
   unsigned bits_ = 0;
 };
 
-/// Calls body(slot) with `slot` as a constant, so that what it inlines to has fixed addresses.
-template <class Body>
-[[gnu::always_inline]] inline void WithConstant(Slot slot, const Body& body) {
-  static_assert(kSlots == 9);
-  switch (static_cast<int>(slot)) {
-    case kThetaSlot:
-      return body(kThetaSlot);
-    case kVelocitySlot:
-      return body(kVelocitySlot);
-    case kPositionSlot:
-      return body(kPositionSlot);
-    case FootSlot(0):
-      return body(FootSlot(0));
-    case FootSlot(1):
-      return body(FootSlot(1));
-    case FootSlot(2):
-      return body(FootSlot(2));
-    case FootSlot(3):
-      return body(FootSlot(3));
-    case kGyroBiasSlot:
-      return body(kGyroBiasSlot);
-    case kAccelBiasSlot:
-      return body(kAccelBiasSlot);
-    default:
-      assert(false);
-  }
-}
-
 /// Loops over the slots of an error, unrolled, with every slot a constant: θ, v, p and the biases
 /// always, and of the feet those in a set. `kFeet` is false where there are none, and no loop asks.
 template <bool kFeet>
@@ -83,13 +55,6 @@ class SlotLoops {
     if (last >= FootSlot(3) && Has(FootSlot(3))) body(FootSlot(3));
     if (last >= kGyroBiasSlot) body(kGyroBiasSlot);
     if (last >= kAccelBiasSlot) body(kAccelBiasSlot);
-  }
-
-  /// body(i, j) for every pair i ≤ j, column by column: what a body reads of j stays in registers.
-  template <class Body>
-  [[gnu::always_inline]] void ForEachPair(const Body& body) const {
-    ForEach([&](Slot j)
-                RECKON_INLINED { ForEachUpTo(j, [&](Slot i) RECKON_INLINED { body(i, j); }); });
   }
 
  private:

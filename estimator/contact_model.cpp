@@ -19,8 +19,8 @@ Linearisation<3> LinearisedContact(const FootReading& y, Slot foot, const Naviga
   Linearisation<3> m;
   m.z = x.R * y.h - (x.At(foot) - x.p);
   m.N = Turned(x.R, y.N);
-  m.Minus(kPositionSlot);
   m.Plus(foot);
+  m.Minus(kPositionSlot);
   return m;
 }
 

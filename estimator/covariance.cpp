@@ -17,25 +17,6 @@ void Covariance::Start(const ErrorCovariance& P) {
   }
 }
 
-[[gnu::flatten]] void Covariance::GetColumn(Slot slot, Column& column) const {
-  slots_.Visit([&](const auto& slots) RECKON_INLINED {
-    WithConstant(slot, [&](Slot j) RECKON_INLINED {
-      slots.ForEach([&](Slot i) RECKON_INLINED { column[i] = Get(i, j); });
-    });
-  });
-}
-
-[[gnu::flatten]] void Covariance::SetColumn(Slot slot, const Column& column) {
-  slots_.Visit([&](const auto& slots) RECKON_INLINED {
-    WithConstant(slot, [&](Slot j) RECKON_INLINED {
-      slots.ForEach([&](Slot i) RECKON_INLINED {
-        if (i <= j) (*this)(i, j) = column[i];
-        if (i > j) (*this)(j, i) = Transposed(column[i]);
-      });
-    });
-  });
-}
-
 [[gnu::flatten]] void Covariance::MapRow(Slot i, const LaneMatrix& M) {
   slots_.loops().ForEach([&](Slot k) {
     if (k < i) (*this)(k, i) = TimesTransposed((*this)(k, i), M);

@@ -19,9 +19,6 @@ struct BiasColumns {
   LaneMatrix accel_velocity, accel_position;
 };
 
-/// A block for each slot: a column of a covariance.
-using Column = std::array<LaneMatrix, kSlots>;
-
 /// The covariance of an error with fixed slots, of which a list is active: adding or removing a
 /// foot moves nothing else. Each pair of slots is kept once, as a 3×3 block. Nothing allocates.
 class Covariance {
@@ -40,12 +37,11 @@ class Covariance {
 
   /// The block of any pair.
   LaneMatrix Get(Slot i, Slot j) const {
-    return i <= j ? (*this)(i, j) : Transposed((*this)(j, i));
+    const LaneMatrix& kept = i <= j ? (*this)(i, j) : (*this)(j, i);
+    Lane a = kept.column[0], b = kept.column[1], c = kept.column[2];
+    if (i > j) Lane::Transpose(a, b, c);
+    return {a, b, c};
   }
-
-  /// The blocks (i, j) of a column j, all as rows i see them.
-  void GetColumn(Slot j, Column& column) const;
-  void SetColumn(Slot j, const Column& column);
 
   /// e_i ← e_i + M e_j; `M` is what a block can be multiplied with.
   template <class Factor>

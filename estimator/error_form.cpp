@@ -61,7 +61,11 @@ ErrorVector ErrorBetween(ErrorForm form, const NavigationState& hat, const Navig
     dp = J_inverse * dp;
   }
   ErrorVector error;
-  error << theta, dv, dp, hat.gyro_bias - x.gyro_bias, hat.accel_bias - x.accel_bias;
+  error.segment<3>(0) = theta;
+  error.segment<3>(3) = dv;
+  error.segment<3>(6) = dp;
+  error.segment<3>(9) = hat.gyro_bias - x.gyro_bias;
+  error.segment<3>(12) = hat.accel_bias - x.accel_bias;
   return error;
 }
 

@@ -8,34 +8,31 @@
 namespace reckon::estimator {
 namespace {
 
-/// use(i, (P Hᵀ)_i) for every slot i, of one term's H and its column of P.
-template <int kRows, class Slots, class Use>
-[[gnu::always_inline]] inline void ForEachColumn(const Term<kRows>& term, const Slots& slots,
-                                                 const Column& P, const Use& use) {
+/// use(i, (P Hᵀ)_i) for every slot i, of one term of H and `block`(i) of its column of P.
+template <int kRows, class Slots, class Block, class Use>
+[[gnu::always_inline]] inline void ForEachStrip(const Term<kRows>& term, const Slots& slots,
+                                                const Block& block, const Use& use) {
   if (kRows == 1 || term.kind == TermKind::kBlock) {
-    const Strip<kRows> H = term.H;
-    slots.ForEach([&](Slot i) RECKON_INLINED { use(i, TimesTransposed(P[i], H)); });
+    const auto H = Spread(term.H);
+    slots.ForEach([&](Slot i) RECKON_INLINED { use(i, TimesTransposed(block(i), H)); });
   } else if constexpr (kRows == 3) {
     if (term.kind == TermKind::kPlus) {
-      slots.ForEach([&](Slot i) RECKON_INLINED { use(i, P[i]); });
+      slots.ForEach([&](Slot i) RECKON_INLINED { use(i, block(i)); });
     } else {
-      slots.ForEach([&](Slot i) RECKON_INLINED { use(i, -P[i]); });
+      slots.ForEach([&](Slot i) RECKON_INLINED { use(i, -block(i)); });
     }
   }
 }
 
-/// P Hᵀ.
-template <int kRows, class Slots>
-[[gnu::noinline, gnu::flatten]] void SetProduct(Strips<kRows>& strips, const Covariance& P,
-                                                const Linearisation<kRows>& m, const Slots slots) {
-  Column column;
-  P.GetColumn(m.terms().front().slot, column);
-  ForEachColumn(m.terms().front(), slots, column,
-                [&](Slot i, const Strip<kRows>& c) RECKON_INLINED { strips[i] = c; });
+/// P Hᵀ, where column(j) gives the blocks of a column of P, each by its row.
+template <int kRows, class Slots, class Column>
+[[gnu::always_inline]] inline void SetProduct(Strips<kRows>& strips, const Linearisation<kRows>& m,
+                                              const Slots& slots, const Column& column) {
+  ForEachStrip(m.terms().front(), slots, column(m.terms().front().slot),
+               [&](Slot i, const Strip<kRows>& c) RECKON_INLINED { strips[i] = c; });
   for (const Term<kRows>& term : m.terms().subspan(1)) {
-    P.GetColumn(term.slot, column);
-    ForEachColumn(term, slots, column,
-                  [&](Slot i, const Strip<kRows>& c) RECKON_INLINED { strips[i] += c; });
+    ForEachStrip(term, slots, column(term.slot),
+                 [&](Slot i, const Strip<kRows>& c) RECKON_INLINED { strips[i] += c; });
   }
 }
 
@@ -57,7 +54,11 @@ template <int kRows>
 [[gnu::flatten]] KalmanCorrection<kRows>::KalmanCorrection(const Covariance& P,
                                                            const Linearisation<kRows>& m)
     : m_(m), slots_(P.slots()), N_(ToSquare(m.N)), z_(ToRow(m.z)) {
-  slots_.Visit([&](const auto& slots) { SetProduct(C_, P, m, slots); });
+  slots_.Visit([&](const auto& slots) RECKON_INLINED {
+    SetProduct(C_, m, slots, [&](Slot j) RECKON_INLINED {
+      return [&P, j](Slot i) RECKON_INLINED { return P.Get(i, j); };
+    });
+  });
   S_ = N_;
   for (const Term<kRows>& term : m.terms()) S_ += Times(term, C_[term.slot]);
   S_ = Symmetric(S_);
@@ -90,13 +91,19 @@ template <class Slots>
 [[gnu::noinline, gnu::flatten]] void KalmanCorrection<kRows>::Update(Covariance& P,
                                                                      const Slots slots) const {
   Strips<kRows> K, T;
-  slots.ForEach([&](Slot i) RECKON_INLINED { K[i] = C_[i] * S_inverse_; });
-  slots.ForEachPair([&](Slot i, Slot j)
-                        RECKON_INLINED { SubtractTimesTransposed(P(i, j), C_[i], K[j]); });
-  SetProduct(T, P, m_, slots);
-  slots.ForEach([&](Slot i) RECKON_INLINED { T[i] -= K[i] * N_; });
-  slots.ForEachPair([&](Slot i, Slot j)
-                        RECKON_INLINED { SubtractTimesTransposed(P(i, j), T[i], K[j]); });
+  const auto S_inverse = Spread(S_inverse_);
+  slots.ForEach([&](Slot i) RECKON_INLINED { K[i] = TimesTransposed(C_[i], S_inverse); });
+  SetProduct(T, m_, slots, [&](Slot j) RECKON_INLINED {
+    return [&, j, K_j = Spread(K[j])](Slot i)
+               RECKON_INLINED { return Less(P.Get(i, j), C_[i], K_j); };
+  });
+  const auto N = Spread(N_);
+  slots.ForEach([&](Slot i) RECKON_INLINED { T[i] = Less(T[i], K[i], N); });
+  slots.ForEach([&](Slot j) RECKON_INLINED {
+    const auto K_j = Spread(K[j]);
+    slots.ForEachUpTo(
+        j, [&](Slot i) RECKON_INLINED { P(i, j) = Less(Less(P(i, j), C_[i], K_j), T[i], K_j); });
+  });
   slots.ForEach([&](Slot i) RECKON_INLINED { P(i, i) = Symmetric(P(i, i)); });
 }
 

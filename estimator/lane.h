@@ -46,6 +46,13 @@ class Lane {
   Lane& operator-=(Lane b) { return v_ -= b.v_, *this; }
   Lane& operator*=(Lane b) { return v_ *= b.v_, *this; }
   Lane operator-() const { return Lane(-v_); }
+#if defined(__FMA__)
+  Lane& AddProduct(Lane a, Lane b) { return v_ = _mm256_fmadd_pd(a.v_, b.v_, v_), *this; }
+  Lane& SubtractProduct(Lane a, Lane b) { return v_ = _mm256_fnmadd_pd(a.v_, b.v_, v_), *this; }
+#else
+  Lane& AddProduct(Lane a, Lane b) { return *this += a * b; }
+  Lane& SubtractProduct(Lane a, Lane b) { return *this -= a * b; }
+#endif
 
   /// (y, z, x).
   Lane Rotated() const { return Lane(_mm256_permute4x64_pd(v_, 0b11'00'10'01)); }
@@ -84,6 +91,12 @@ class Lane {
   Lane& operator-=(Lane b) { return low_ -= b.low_, high_ -= b.high_, *this; }
   Lane& operator*=(Lane b) { return low_ *= b.low_, high_ *= b.high_, *this; }
   Lane operator-() const { return Lane(-low_, -high_); }
+  Lane& AddProduct(Lane a, Lane b) {
+    return low_ += a.low_ * b.low_, high_ += a.high_ * b.high_, *this;
+  }
+  Lane& SubtractProduct(Lane a, Lane b) {
+    return low_ -= a.low_ * b.low_, high_ -= a.high_ * b.high_, *this;
+  }
 
   /// (y, z, x).
   Lane Rotated() const { return Lane(Two{low_[1], high_[0]}, Two{low_[0], high_[0]}); }

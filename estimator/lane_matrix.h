@@ -56,9 +56,14 @@ struct LaneMatrix {
   return A;
 }
 
+/// a x + b y + c z, element by element.
+[[gnu::always_inline]] inline Lane Combined(const LaneMatrix& A, Lane x, Lane y, Lane z) {
+  return (A.column[0] * x).AddProduct(A.column[1], y).AddProduct(A.column[2], z);
+}
+
 /// A v.
 [[gnu::always_inline]] inline Lane operator*(const LaneMatrix& A, Lane v) {
-  return v[0] * A.column[0] + v[1] * A.column[1] + v[2] * A.column[2];
+  return Combined(A, Lane::All(v[0]), Lane::All(v[1]), Lane::All(v[2]));
 }
 
 /// A B.
@@ -82,7 +87,7 @@ struct LaneMatrix {
 [[gnu::always_inline]] inline LaneMatrix TimesTransposed(const LaneMatrix& A, const LaneMatrix& B) {
   LaneMatrix C;
   for (int j = 0; j < 3; ++j) {
-    C.column[j] = B(j, 0) * A.column[0] + B(j, 1) * A.column[1] + B(j, 2) * A.column[2];
+    C.column[j] = Combined(A, Lane::All(B(j, 0)), Lane::All(B(j, 1)), Lane::All(B(j, 2)));
   }
   return C;
 }
@@ -92,29 +97,14 @@ struct LaneMatrix {
                                                       const LaneMatrix& B) {
   for (int j = 0; j < 3; ++j) {
     Lane sum = C.column[j];
-    for (int k = 0; k < 3; ++k) sum += B(j, k) * A.column[k];
-    C.column[j] = sum;
-  }
-}
-
-/// C −= A Bᵀ.
-[[gnu::always_inline]] inline void SubtractTimesTransposed(LaneMatrix& C, const LaneMatrix& A,
-                                                           const LaneMatrix& B) {
-  for (int j = 0; j < 3; ++j) {
-    Lane sum = C.column[j];
-    for (int k = 0; k < 3; ++k) sum -= B(j, k) * A.column[k];
+    for (int k = 0; k < 3; ++k) sum.AddProduct(A.column[k], Lane::All(B(j, k)));
     C.column[j] = sum;
   }
 }
 
 /// a bᵀ.
-[[gnu::always_inline]] inline LaneMatrix TimesTransposed(Lane a, Lane b) {
+[[gnu::always_inline]] inline LaneMatrix Outer(Lane a, Lane b) {
   return {b[0] * a, b[1] * a, b[2] * a};
-}
-
-/// C −= a bᵀ.
-[[gnu::always_inline]] inline void SubtractTimesTransposed(LaneMatrix& C, Lane a, Lane b) {
-  C -= TimesTransposed(a, b);
 }
 
 [[gnu::always_inline]] inline LaneMatrix operator-(LaneMatrix A) {
@@ -146,16 +136,6 @@ struct CrossProduct {
 [[gnu::always_inline]] inline LaneMatrix TimesTransposed(const LaneMatrix& A, double s) {
   return s * A;
 }
-
-/// What the above are of a measurement of one row, where a matrix beside it shrinks to a number and
-/// a strip to a vector: one text serves both.
-[[gnu::always_inline]] inline Lane operator*(Lane a, double s) { return s * a; }
-[[gnu::always_inline]] inline Lane TimesTransposed(const LaneMatrix& A, Lane row) {
-  return A * row;
-}
-[[gnu::always_inline]] inline double Symmetric(double s) { return s; }
-[[gnu::always_inline]] inline double Dot(double a, double b) { return a * b; }
-inline Eigen::Matrix<double, 1, 1> ToEigen(double s) { return Eigen::Matrix<double, 1, 1>(s); }
 
 /// d I + [v]×.
 [[gnu::always_inline]] inline LaneMatrix DiagonalAndCross(double d, Lane v) {

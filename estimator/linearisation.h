@@ -9,6 +9,7 @@
 
 #include "reckon/estimator/covariance.h"
 #include "reckon/estimator/navigation_state.h"
+#include "reckon/estimator/spread.h"
 
 namespace reckon::estimator {
 

@@ -25,7 +25,7 @@ class RotationSeries {
 
   /// Γ_m(φ) = f_m I + f_{m+1} [φ]× + f_{m+2} φ φᵀ.
   LaneMatrix GammaInLanes(int m) const {
-    return DiagonalAndCross(f_[m], f_[m + 1] * phi_) + TimesTransposed(f_[m + 2] * phi_, phi_);
+    return DiagonalAndCross(f_[m], f_[m + 1] * phi_) + Outer(f_[m + 2] * phi_, phi_);
   }
   Eigen::Matrix3d Gamma(int m) const { return ToEigen(GammaInLanes(m)); }
 
@@ -52,8 +52,8 @@ inline LaneMatrix RotationSeries<kHighest>::GammaDerivative(int m, Lane a) const
   const Lane twice = Cross(phi_, once);
   // [φ]× [a]× = a φᵀ − (φ·a) I and [φ × a]× = a φᵀ − φ aᵀ.
   const Lane left = twice_slope(m + 1) * once + twice_slope(m + 2) * twice - 2.0 * f_[m + 2] * a;
-  return DiagonalAndCross(f_[m + 2] * Dot(phi_, a), -f_[m + 1] * a) + TimesTransposed(left, phi_) +
-         TimesTransposed(f_[m + 2] * phi_, a);
+  return DiagonalAndCross(f_[m + 2] * Dot(phi_, a), -f_[m + 1] * a) + Outer(left, phi_) +
+         Outer(f_[m + 2] * phi_, a);
 }
 
 extern template RotationSeries<3>::RotationSeries(Lane phi);

@@ -8,13 +8,17 @@ namespace reckon::estimator {
   const LaneMatrix R = ToLanes(x.R);
   const LaneMatrix R_WS = R * ToLanes(X_IS.R);
   const Lane r = ToLane(X_IS.p);
-  const LaneMatrix R_r_cross = R * DiagonalAndCross(0.0, r);
-  Linearisation<3> m;
-  m.z = ToEigen(R_WS * ToLane(y.v_WS_S) - R * Cross(ToLane(turn.w_rad_s), r) - ToLane(x.v));
-  m.Plus(kVelocitySlot);
-  m.Block(kGyroBiasSlot, R_r_cross);
   LaneMatrix N = TimesTransposed(R_WS * ToLanes(y.covariance), R_WS);
-  AddTimesTransposed(N, turn.variance * R_r_cross, R_r_cross);
+  Lane v_W = R_WS * ToLane(y.v_WS_S);
+  Linearisation<3> m;
+  m.Plus(kVelocitySlot);
+  if (!X_IS.p.isZero(0.0)) {
+    const LaneMatrix R_r_cross = R * DiagonalAndCross(0.0, r);
+    v_W -= R * Cross(ToLane(turn.w_rad_s), r);
+    AddTimesTransposed(N, turn.variance * R_r_cross, R_r_cross);
+    m.Block(kGyroBiasSlot, R_r_cross);
+  }
+  m.z = ToEigen(v_W - ToLane(x.v));
   m.N = ToEigen(N);
   return m;
 }

@@ -21,7 +21,7 @@ struct TurnRate {
 /// right-invariant coordinates:
 ///     z = R̂ (R_IS y − ω̂ × r) − v̂,   H = I at v and R̂ [r]× at b_g,
 ///     N = R̂ (R_IS N_S R_ISᵀ + σ_ω² [r]× [r]×ᵀ) R̂ᵀ.
-/// `X_IS` is the sensor's frame in I. Does not allocate.
+/// `X_IS` is the sensor's frame in I; without a lever arm no bias is seen. Does not allocate.
 Linearisation<3> LinearisedVelocity(const models::BodyVelocitySample& y, const models::Pose& X_IS,
                                     const TurnRate& turn, const NavigationState& x);
 
