@@ -4,6 +4,10 @@
 #include <numbers>
 #include <stdexcept>
 
+#include <Eigen/Cholesky>
+
+#include "reckon/estimator/so3.h"
+
 namespace reckon::estimator {
 namespace {
 
@@ -30,6 +34,12 @@ double ChiSquareQuantile(int dof, double probability) {
     (ChiSquareCdf(dof, middle) < probability ? low : high) = middle;
   }
   return 0.5 * (low + high);
+}
+
+double NisWithCurvature(const Correction& correction, const Eigen::Matrix3d& P_theta) {
+  const Eigen::Vector3d& z = correction.innovation;
+  const Eigen::Matrix3d S = correction.covariance + 0.25 * Skew(z) * P_theta * Skew(z).transpose();
+  return z.dot(S.ldlt().solve(z));
 }
 
 InnovationGate::InnovationGate(const Gate& gate) : action_(gate.action) {

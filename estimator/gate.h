@@ -11,6 +11,12 @@ namespace reckon::estimator {
 /// Throws std::invalid_argument otherwise.
 double ChiSquareQuantile(int dof, double probability);
 
+/// NIS of a correction of three rows by a vector that turns with the error: z = −J(θ) ξ + n in the
+/// right-invariant form, J = Γ1, where a filter has −ξ + n. What is left out to second order, ½ θ ×
+/// z, is counted as noise: S + ¼ [z]× P_θ [z]×ᵀ. `P_theta` is the orientation's covariance in the
+/// axes of the innovation. Does not allocate.
+double NisWithCurvature(const Correction& correction, const Eigen::Matrix3d& P_theta);
+
 /// Judges corrections by their normalised innovation squared.
 class InnovationGate {
  public:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reckon/estimator/correction_judge.h"
 #include "reckon/estimator/depth_model.h"
 #include "reckon/estimator/height_model.h"
 #include "reckon/estimator/iterated_correction.h"
@@ -33,26 +34,9 @@ constexpr TimeNs kLongestStep = 50'000'000;
 constexpr double kSaturatedFactor = 100.0;
 /// A foot that is more probably in contact than not stands.
 constexpr double kStands = 0.5;
+
 double LargestSigma(const LaneMatrix& P) {
   return std::sqrt(std::max({P(0, 0), P(1, 1), P(2, 2)}));
-}
-
-/// What a correction looks like before a gate judges it. Innovations of velocities, contacts and
-/// rates are shown in the body's axes, where a reader expects them.
-template <int kRows>
-Correction Described(const KalmanCorrection<kRows>& kalman, const Linearisation<kRows>& m,
-                     const Matrix3d& R) {
-  Correction correction;
-  correction.rows = kRows;
-  correction.nis = kalman.nis();
-  if constexpr (kRows == 3) {
-    correction.innovation = R.transpose() * m.z;
-    correction.covariance = R.transpose() * kalman.S() * R;
-  } else {
-    correction.innovation[0] = m.z(0);
-    correction.covariance(0, 0) = kalman.S()(0);
-  }
-  return correction;
 }
 
 void Forget(ErrorCovariance& P, ErrorBlock block) {
@@ -66,7 +50,8 @@ template <class Core>
 InOrderFilter<Core>::InOrderFilter(const FilterBeliefs& beliefs)
     : beliefs_(&beliefs),
       stage_(beliefs.stage_noise),
-      rest_(beliefs.setup.noise, models::Seconds(beliefs.period_ns), beliefs.setup.gravity_m_s2) {}
+      rest_(beliefs.setup.noise, models::Seconds(beliefs.period_ns), beliefs.setup.gravity_m_s2),
+      mistrust_(beliefs.setup.gate.patience_s) {}
 
 template <class Core>
 void InOrderFilter<Core>::Start(TimeNs t_ns, const NavigationState& x, const ErrorCovariance& P) {
@@ -78,7 +63,9 @@ void InOrderFilter<Core>::Start(TimeNs t_ns, const NavigationState& x, const Err
   stage_.Start();
   t_ns_ = covered_from_ns_ = t_ns;
   sample_s_ = unseen_s_ = 0.0;
+  widening_ = {};
   rest_.Restart();
+  mistrust_.Start(t_ns);
   standing_.fill(false);
 }
 
@@ -133,7 +120,9 @@ void InOrderFilter<Core>::AdvanceTo(TimeNs t_ns) {
     if (t_ns_ < covered_from_ns_) until_ns = std::min(until_ns, covered_from_ns_);
     const double dt = models::Seconds(until_ns - t_ns_);
     const Increment u(Rate() - core_.x().gyro_bias, accel_ - core_.x().accel_bias, dt);
-    core_.Propagate(u, beliefs_->gravity, NoiseAt(t_ns_));
+    ProcessNoise noise = NoiseAt(t_ns_);
+    widening_.Spend(noise, core_.P(), dt);
+    core_.Propagate(u, beliefs_->gravity, noise);
     for (const Slot slot : core_.P().active()) {
       if (IsFoot(slot)) core_.P()(slot, slot) += LaneMatrix::Diagonal(slip * slip * dt);
     }
@@ -330,6 +319,18 @@ void InOrderFilter<Core>::EndSample(Report* report) {
 }
 
 template <class Core>
+void InOrderFilter<Core>::Blame(Correction& correction) {
+  if (correction.decision == Decision::kRefused) return;
+  const bool rejected = correction.decision == Decision::kRejected;
+  mistrust_.Heard(t_ns_, correction.rows, rejected);
+  if (!rejected || !mistrust_.OfBelief()) return;
+  correction.decision = Decision::kWidened;
+  const double seconds = mistrust_.seconds();
+  widening_ = {seconds, kUnseenAcceleration * seconds + correction.innovation.norm()};
+  mistrust_.Start(t_ns_);
+}
+
+template <class Core>
 template <class Model>
 std::optional<Correction> InOrderFilter<Core>::Apply(TimeNs t_ns, models::SensorId sensor,
                                                      const Model& model, Report* report) {
@@ -340,15 +341,10 @@ std::optional<Correction> InOrderFilter<Core>::Apply(TimeNs t_ns, models::Sensor
   Correction correction = Described(kalman, own, core_.x().R);
   correction.t_ns = t_ns;
   correction.sensor = sensor;
-  correction.decision = beliefs_->gate.Judge(kRows, correction.nis);
-  if (!std::isfinite(correction.nis)) {
-    correction.decision = Decision::kRefused;
-    correction.reason = Refusal::kNotFinite;
-  }
+  Judge(beliefs_->gate, core_, linearised.slots(), correction);
+  Blame(correction);
   if (report != nullptr) report->Add(correction);
-  if (correction.decision == Decision::kRejected || correction.decision == Decision::kRefused) {
-    return std::nullopt;
-  }
+  if (!IsApplied(correction.decision)) return std::nullopt;
   if (correction.decision == Decision::kInflated) {
     kalman.Inflate(beliefs_->gate.Limit(kRows));
   } else if constexpr (Core::kForm == ErrorForm::kRightInvariant) {

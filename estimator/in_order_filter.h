@@ -8,6 +8,7 @@
 #include "reckon/estimator/filter_beliefs.h"
 #include "reckon/estimator/gyro_filter.h"
 #include "reckon/estimator/linearisation.h"
+#include "reckon/estimator/mistrust.h"
 #include "reckon/estimator/report.h"
 #include "reckon/estimator/rest_average.h"
 #include "reckon/estimator/velocity_model.h"
@@ -81,6 +82,10 @@ class InOrderFilter {
   std::optional<Correction> Apply(models::TimeNs t_ns, models::SensorId sensor, const Model& model,
                                   Report* report);
 
+  /// Decides what becomes of a correction, and whether the belief is at fault instead.
+  /// Puts the blame for a correction that does not fit on its sensor or on the belief.
+  void Blame(Correction& correction);
+
   ProcessNoise NoiseAt(models::TimeNs t_ns) const;
   TurnRate Turn() const;
   Eigen::Vector3d BiasOfFirst() const { return core_.x().gyro_bias + stage_.bias_of_first(); }
@@ -96,11 +101,13 @@ class InOrderFilter {
   double sample_s_ = 0.0;                            ///< its length
   models::TimeNs covered_from_ns_ = 0;               ///< before this nothing was seen
   double unseen_s_ = 0.0;                            ///< the length of that
+  Widening widening_;
   bool gyro_saturated_ = false, accel_saturated_ = false;
 
   GyroFilterStage stage_;  ///< idle without a second source of the rate
   RestAverage rest_;
   std::array<bool, kMaxFeet> standing_{};
+  Mistrust mistrust_;
 };
 
 }  // namespace reckon::estimator

@@ -16,6 +16,8 @@ std::string_view Name(Decision decision) {
       return "rejected";
     case Decision::kRefused:
       return "refused";
+    case Decision::kWidened:
+      return "widened";
   }
   return "unknown";
 }

@@ -18,6 +18,7 @@ enum class Decision : std::uint8_t {
   kInflated,  ///< outside the gate, applied with its noise scaled until it lies on the gate's edge
   kRejected,  ///< outside the gate, not applied
   kRefused,   ///< never came to the gate: see the reason
+  kWidened,   ///< outside the gate like most before it, not applied: the belief is widened instead
 };
 
 /// Why a measurement was refused.
@@ -34,6 +35,12 @@ enum class Refusal : std::uint8_t {
   kUnused,      ///< this estimator has no use for this sensor
   kDuplicate,   ///< the sensor has sent a sample of this stamp before
 };
+
+/// Whether a correction of this decision moves the state.
+inline bool IsApplied(Decision decision) {
+  return decision == Decision::kAccepted || decision == Decision::kWarned ||
+         decision == Decision::kInflated;
+}
 
 std::string_view Name(Decision decision);
 std::string_view Name(Refusal refusal);

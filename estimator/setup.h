@@ -47,6 +47,9 @@ enum class GateAction : std::uint8_t { kOff, kWarn, kReject, kInflate };
 struct Gate {
   GateAction action = GateAction::kReject;
   double probability = 0.9999;
+  /// With kReject: once most rows have been rejected for this long, the belief is at fault, and is
+  /// widened as if the IMU had not been there in that time. 0: never.
+  double patience_s = 2.0;
 };
 
 /// Standard deviations of the initial error in the filter's own error coordinates.

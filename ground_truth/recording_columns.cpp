@@ -101,8 +101,8 @@ constexpr std::array<std::string_view, 6> kSensorKinds{"imu",   "encoders", "bod
 static_assert(static_cast<std::size_t>(models::SensorKind::kContacts) + 1 == kSensorKinds.size());
 constexpr std::array<std::string_view, 3> kErrorForms{"right_invariant", "left_invariant",
                                                       "multiplicative"};
-constexpr std::array<std::string_view, 5> kDecisions{"accepted", "warned", "inflated", "rejected",
-                                                     "refused"};
+constexpr std::array<std::string_view, 6> kDecisions{"accepted", "warned",  "inflated",
+                                                     "rejected", "refused", "widened"};
 constexpr std::array<std::string_view, 11> kRefusals{
     "none",        "not_finite", "not_initialised", "moving", "backwards", "late",
     "from_future", "gap",        "invalid",         "unused", "duplicate"};

@@ -47,6 +47,10 @@ void Describe(Archive& a, estimator::Gate& g) {
   a.Field("action", g.action, "What happens to a correction beyond the gate");
   a.Field("probability", g.probability, "Chi-square quantile of the gate",
           AboveUpTo(0.5, 1 - 1e-12));
+  a.Field("patience_s", g.patience_s,
+          "Reject: when most rows have been rejected for this long, the belief is widened instead; "
+          "0: never",
+          Between(0, 1e4));
 }
 
 template <class Archive>

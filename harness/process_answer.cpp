@@ -200,12 +200,12 @@ Enum Named(const Json& value, const std::string& key,
   Refuse(expected, Text(value));
 }
 
-constexpr std::array<std::string_view, 5> kDecisions{"accepted", "warned", "inflated", "rejected",
-                                                     "refused"};
+constexpr std::array<std::string_view, 6> kDecisions{"accepted", "warned",  "inflated",
+                                                     "rejected", "refused", "widened"};
 constexpr std::array<std::string_view, 11> kRefusals{
     "none",        "not_finite", "not_initialised", "moving", "backwards", "late",
     "from_future", "gap",        "invalid",         "unused", "duplicate"};
-static_assert(static_cast<std::size_t>(estimator::Decision::kRefused) + 1 == kDecisions.size());
+static_assert(static_cast<std::size_t>(estimator::Decision::kWidened) + 1 == kDecisions.size());
 static_assert(static_cast<std::size_t>(estimator::Refusal::kDuplicate) + 1 == kRefusals.size());
 
 estimator::Correction ParseCorrection(const Json& object, const AnswerContext& context) {

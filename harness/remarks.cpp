@@ -37,7 +37,7 @@ void AddRejections(const EstimatorScore& score, std::vector<std::string>& remark
     const std::string sensor(Between(metric.name, "rejected_", "_count"));
     if (sensor.empty() || !(metric.value > 0.0)) continue;
     double all = metric.value;
-    for (const char* other : {"accepted", "warned", "inflated"}) {
+    for (const char* other : {"accepted", "warned", "inflated", "widened"}) {
       all += Count(score.metrics, fmt::format("{}_{}_count", other, sensor));
     }
     if (metric.value < kRejectedShare * all) continue;
