@@ -23,7 +23,8 @@ struct NisStatistics {
 
 NisStatistics NisOf(std::span<const TrackCorrection> corrections, models::SensorId sensor);
 
-inline constexpr std::size_t kDecisions = 5;
+inline constexpr std::size_t kDecisions =
+    static_cast<std::size_t>(estimator::Decision::kWidened) + 1;
 inline constexpr std::size_t kRefusals = 11;
 
 /// What became of one sensor's measurements.

@@ -173,7 +173,8 @@ void AddSensor(Metrics& metrics, const Track& track, models::SensorId id, const 
   metrics.Add({"nis_" + name + "_lag1", nis.lag1, applies, "1",
                "correlation of successive innovations; white is within 5/sqrt(count)"});
   const DecisionCounts counts = CountDecisions(track, id);
-  for (std::size_t i = 0; i + 1 < kDecisions; ++i) {
+  for (std::size_t i = 0; i < kDecisions; ++i) {
+    if (static_cast<estimator::Decision>(i) == estimator::Decision::kRefused) continue;
     const std::string decision(DecisionNames()[i]);
     metrics.Add({decision + "_" + name + "_count", static_cast<double>(counts.decisions[i]), true,
                  "count", "corrections that were " + decision});

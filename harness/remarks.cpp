@@ -46,6 +46,16 @@ void AddRejections(const EstimatorScore& score, std::vector<std::string>& remark
   }
 }
 
+void AddWidenings(const EstimatorScore& score, std::vector<std::string>& remarks) {
+  for (const auto& metric : score.metrics.list()) {
+    const std::string_view sensor = Between(metric.name, "widened_", "_count");
+    if (sensor.empty() || !(metric.value > 0.0)) continue;
+    remarks.push_back(fmt::format(
+        "{}: most corrections were rejected, the last by {}: its belief was widened, {} in all",
+        score.name, sensor, metric.value));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> Remarks(const RunResult& result) {
@@ -66,6 +76,7 @@ std::vector<std::string> Remarks(const RunResult& result) {
     }
     AddRefusals(score, started, remarks);
     AddRejections(score, remarks);
+    AddWidenings(score, remarks);
   }
   return remarks;
 }

@@ -55,8 +55,8 @@ TEST(RecordingReader, RefusesNumbersThatStandForNothing) {
   damaged.rows = 0;
   EXPECT_EQ(Complaint(damaged), corrections + "rows is 0, expected 1 to 3");
   damaged = whole;
-  damaged.decision = static_cast<estimator::Decision>(5);
-  EXPECT_EQ(Complaint(damaged), corrections + "decision is 5, expected 0 to 4");
+  damaged.decision = static_cast<estimator::Decision>(6);
+  EXPECT_EQ(Complaint(damaged), corrections + "decision is 6, expected 0 to 5");
   damaged = whole;
   damaged.reason = static_cast<estimator::Refusal>(11);
   EXPECT_EQ(Complaint(damaged), corrections + "reason is 11, expected 0 to 10");

@@ -79,7 +79,7 @@ TEST(Nis, OfOneSensorCountsRejectedOnesAndNoRefusedOnes) {
   EXPECT_DOUBLE_EQ(nis.mean, 5.0);  // (1 + 9) / 2
   EXPECT_EQ(nis.dof, 1.0);
   const DecisionCounts counts = CountDecisions(track, 1);
-  EXPECT_EQ(counts.decisions, (std::array<std::size_t, 5>{1, 0, 0, 1, 1}));
+  EXPECT_EQ(counts.decisions, (std::array<std::size_t, 6>{1, 0, 0, 1, 1, 0}));
   EXPECT_EQ(counts.refusals[static_cast<std::size_t>(estimator::Refusal::kNotFinite)], 1U);
   EXPECT_EQ(counts.refusals[static_cast<std::size_t>(estimator::Refusal::kLate)], 1U);
   EXPECT_EQ(counts.refusals[static_cast<std::size_t>(estimator::Refusal::kUnused)], 0U);

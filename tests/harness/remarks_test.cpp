@@ -44,6 +44,14 @@ TEST(Remarks, SaysThatAGateRejectsTooMuch) {
             (Sentences{"filter: its gate rejected 20.0 % of the corrections by wheels"}));
 }
 
+TEST(Remarks, SaysThatABeliefWasWidened) {
+  EXPECT_EQ(
+      Remarks(ResultOf(
+          {{"estimate_count", 1}, {"accepted_wheels_count", 9999}, {"widened_wheels_count", 2}})),
+      (Sentences{"filter: most corrections were rejected, the last by wheels: its belief was "
+                 "widened, 2 in all"}));
+}
+
 TEST(Remarks, SaysThatACovarianceIsNone) {
   EXPECT_EQ(Remarks(ResultOf({{"estimate_count", 5}, {"indefinite_covariance_count", 2}})),
             (Sentences{"filter: 2 of its covariances are not positive definite"}));
