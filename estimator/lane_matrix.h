@@ -22,6 +22,7 @@ struct LaneMatrix {
   LaneMatrix(Lane x, Lane y, Lane z) : column{x, y, z} {}
   // Lane by lane: compilers copy an array, or a loop over one, as bytes and through memory.
   LaneMatrix(const LaneMatrix& B) : column{B.column[0], B.column[1], B.column[2]} {}
+  // NOLINTNEXTLINE(bugprone-unhandled-self-assignment): all is read before any is written
   LaneMatrix& operator=(const LaneMatrix& B) {
     const Lane x = B.column[0], y = B.column[1], z = B.column[2];
     column[0] = x;
