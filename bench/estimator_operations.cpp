@@ -92,8 +92,7 @@ void EstimatorOperations::CorrectFeet() {
     m.MoveBy(sum);
     const KalmanCorrection<3> kalman(core_.P(), m);
     nis_ = kalman.nis();
-    const SlotVector increment = kalman.Gain();
-    for (const Slot slot : core_.P().active()) sum[slot] += increment[slot];
+    kalman.AddGainTo(sum);
     kalman.UpdateCovariance(core_.P());
   }
   core_.Retract(sum);

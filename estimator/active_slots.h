@@ -49,10 +49,14 @@ class SlotLoops {
     body(kThetaSlot);
     if (last >= kVelocitySlot) body(kVelocitySlot);
     if (last >= kPositionSlot) body(kPositionSlot);
-    if (last >= FootSlot(0) && Has(FootSlot(0))) body(FootSlot(0));
-    if (last >= FootSlot(1) && Has(FootSlot(1))) body(FootSlot(1));
-    if (last >= FootSlot(2) && Has(FootSlot(2))) body(FootSlot(2));
-    if (last >= FootSlot(3) && Has(FootSlot(3))) body(FootSlot(3));
+    if (last >= FootSlot(0) && Has(FootSlot(0))) [[likely]]
+      body(FootSlot(0));
+    if (last >= FootSlot(1) && Has(FootSlot(1))) [[likely]]
+      body(FootSlot(1));
+    if (last >= FootSlot(2) && Has(FootSlot(2))) [[likely]]
+      body(FootSlot(2));
+    if (last >= FootSlot(3) && Has(FootSlot(3))) [[likely]]
+      body(FootSlot(3));
     if (last >= kGyroBiasSlot) body(kGyroBiasSlot);
     if (last >= kAccelBiasSlot) body(kAccelBiasSlot);
   }

@@ -15,10 +15,12 @@ FootReading ReadFoot(const models::LegKinematics& leg, const models::EncoderVect
   return reading;
 }
 
-Linearisation<3> LinearisedContact(const FootReading& y, Slot foot, const NavigationState& x) {
+[[gnu::flatten]] Linearisation<3> LinearisedContact(const FootReading& y, Slot foot,
+                                                    const NavigationState& x) {
+  const LaneMatrix R = ToLanes(x.R);
   Linearisation<3> m;
-  m.z = x.R * y.h - (x.At(foot) - x.p);
-  m.N = Turned(x.R, y.N);
+  m.z = ToEigen(R * ToLane(y.h) - (ToLane(x.At(foot)) - ToLane(x.p)));
+  Store(Turned(R, ToLanes(y.N)), m.N);
   m.Plus(foot);
   m.Minus(kPositionSlot);
   return m;

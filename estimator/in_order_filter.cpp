@@ -25,13 +25,8 @@ using Eigen::Vector3d;
 using models::Measurement;
 using models::TimeNs;
 
-/// A motion nobody saw, one sigma of a constant rate and acceleration beside the held sample.
-constexpr double kUnseenRate = 0.5;          ///< rad/s
-constexpr double kUnseenAcceleration = 3.0;  ///< m/s²
 /// No step is longer: the covariance of a bridged gap sees its nonlinearity.
 constexpr TimeNs kLongestStep = 50'000'000;
-/// A clipped sample says little: its noise is taken this many times larger.
-constexpr double kSaturatedFactor = 100.0;
 /// A foot that is more probably in contact than not stands.
 constexpr double kStands = 0.5;
 
@@ -61,8 +56,8 @@ void InOrderFilter<Core>::Start(TimeNs t_ns, const NavigationState& x, const Err
   core_.Start(x, kept);
   if (beliefs_->gyro_source_is_imu && beliefs_->setup.estimate_gyro_bias) StartMeanBias();
   stage_.Start();
-  t_ns_ = covered_from_ns_ = t_ns;
-  sample_s_ = unseen_s_ = 0.0;
+  t_ns_ = t_ns;
+  held_.Start(t_ns);
   widening_ = {};
   rest_.Restart();
   mistrust_.Start(t_ns);
@@ -82,34 +77,20 @@ void InOrderFilter<Core>::StartMeanBias() {
 
 template <class Core>
 TimeNs InOrderFilter<Core>::Hold(TimeNs valid_ns, const models::ImuSample& sample) {
-  // Stamps that jitter by less than half a sample are taken at their word: the sample covers what
-  // lies between them.
-  const TimeNs from_ns = valid_ns - sample.interval_ns;
-  const bool gap = from_ns - t_ns_ > sample.interval_ns / 2;
-  covered_from_ns_ = gap ? from_ns : t_ns_;
-  unseen_s_ = models::Seconds(covered_from_ns_ - t_ns_);
-  gyro_ = beliefs_->R_BS_imu * sample.gyro_rad_s;
-  accel_ = beliefs_->R_BS_imu * sample.accel_m_s2;
-  sample_s_ = models::Seconds(sample.interval_ns);
-  gyro_saturated_ = sample.gyro_saturated;
-  accel_saturated_ = sample.accel_saturated;
-  if (beliefs_->gyro_source) stage_.Advance(gyro_, models::Seconds(valid_ns - t_ns_));
-  if (gap) rest_.Restart();
-  return covered_from_ns_ - t_ns_;
+  held_.Take(t_ns_, valid_ns, sample, beliefs_->R_BS_imu);
+  if (beliefs_->gyro_source) stage_.Advance(held_.gyro(), models::Seconds(valid_ns - t_ns_));
+  const TimeNs bridged_ns = held_.covered_from_ns() - t_ns_;
+  if (bridged_ns > 0) rest_.Restart();
+  return bridged_ns;
 }
 
 template <class Core>
 ProcessNoise InOrderFilter<Core>::NoiseAt(TimeNs t_ns) const {
-  ProcessNoise noise = beliefs_->noise;
-  if (t_ns < covered_from_ns_) {
-    noise.gyro += kUnseenRate * kUnseenRate * unseen_s_;
-    noise.accel += kUnseenAcceleration * kUnseenAcceleration * unseen_s_;
-    return noise;
+  ProcessNoise seen = beliefs_->noise;
+  if (beliefs_->gyro_source && t_ns >= held_.covered_from_ns()) {
+    seen.gyro = stage_.white_variance() * held_.seconds();
   }
-  if (beliefs_->gyro_source) noise.gyro = stage_.white_variance() * sample_s_;
-  if (gyro_saturated_) noise.gyro *= kSaturatedFactor * kSaturatedFactor;
-  if (accel_saturated_) noise.accel *= kSaturatedFactor * kSaturatedFactor;
-  return noise;
+  return held_.NoiseAt(t_ns, seen);
 }
 
 template <class Core>
@@ -117,9 +98,9 @@ void InOrderFilter<Core>::AdvanceTo(TimeNs t_ns) {
   const double slip = beliefs_->setup.noise.foot_slip_m_per_s_sqrt_hz;
   while (t_ns_ < t_ns) {
     TimeNs until_ns = std::min(t_ns_ + kLongestStep, t_ns);
-    if (t_ns_ < covered_from_ns_) until_ns = std::min(until_ns, covered_from_ns_);
+    if (t_ns_ < held_.covered_from_ns()) until_ns = std::min(until_ns, held_.covered_from_ns());
     const double dt = models::Seconds(until_ns - t_ns_);
-    const Increment u(Rate() - core_.x().gyro_bias, accel_ - core_.x().accel_bias, dt);
+    const Increment u(Rate() - core_.x().gyro_bias, held_.accel() - core_.x().accel_bias, dt);
     ProcessNoise noise = NoiseAt(t_ns_);
     widening_.Spend(noise, core_.P(), dt);
     core_.Propagate(u, beliefs_->gravity, noise);
@@ -132,14 +113,13 @@ void InOrderFilter<Core>::AdvanceTo(TimeNs t_ns) {
 
 template <class Core>
 void InOrderFilter<Core>::CoastTo(TimeNs t_ns) {
-  covered_from_ns_ = t_ns;
-  unseen_s_ = models::Seconds(t_ns - t_ns_);
+  held_.Coast(t_ns_, t_ns);
   AdvanceTo(t_ns);
 }
 
 template <class Core>
 TurnRate InOrderFilter<Core>::Turn() const {
-  double variance = sample_s_ > 0.0 ? beliefs_->noise.gyro / sample_s_ : 0.0;
+  double variance = held_.seconds() > 0.0 ? beliefs_->noise.gyro / held_.seconds() : 0.0;
   if (beliefs_->gyro_source) variance = stage_.white_variance();
   return {Rate() - core_.x().gyro_bias, variance};
 }
@@ -192,12 +172,10 @@ void InOrderFilter<Core>::Use(const Measurement& m, const models::BodyVelocitySa
   models::BodyVelocitySample scaled = y;
   const double scale = beliefs_->setup.noise.body_velocity_scale;
   scaled.covariance *= scale * scale;
-  Apply(
-      m.valid_ns, m.sensor,
-      [&](const NavigationState& x) {
-        return LinearisedVelocity(scaled, beliefs_->X_IS[m.sensor], Turn(), x);
-      },
-      report);
+  const auto model = [&](const NavigationState& x) {
+    return LinearisedVelocity(scaled, beliefs_->X_IS[m.sensor], Turn(), x);
+  };
+  Apply(m.valid_ns, m.sensor, model, report);
 }
 
 template <class Core>
@@ -207,12 +185,10 @@ void InOrderFilter<Core>::Use(const Measurement& m, const models::EncoderSample&
   if (m.sensor == beliefs_->leg_encoders) return UseLegs(m, y, report);
   const models::WheelDrive& wheels = *beliefs_->setup.suite.wheels;
   const auto velocity = WheelVelocity(*MeanRates(y, wheels), wheels, beliefs_->setup.noise);
-  Apply(
-      m.valid_ns, m.sensor,
-      [&](const NavigationState& x) {
-        return LinearisedVelocity(velocity, beliefs_->X_IS[m.sensor], Turn(), x);
-      },
-      report);
+  const auto model = [&](const NavigationState& x) {
+    return LinearisedVelocity(velocity, beliefs_->X_IS[m.sensor], Turn(), x);
+  };
+  Apply(m.valid_ns, m.sensor, model, report);
   if (!beliefs_->setup.floor.use) return;
   const Vector3d r_IB = -beliefs_->p_BI;
   UseFloor(
@@ -223,44 +199,62 @@ template <class Core>
 void InOrderFilter<Core>::UseLegs(const Measurement& m, const models::EncoderSample& y,
                                   Report* report) {
   const auto& legs = beliefs_->setup.suite.legs->legs;
+  FootReadings readings;
   for (std::size_t i = 0; i < legs.size(); ++i) {
     if (!standing_[i]) continue;
+    readings[i] = ReadFoot(legs[i], y.angle_rad, beliefs_->p_BI, beliefs_->setup.noise);
+  }
+  CorrectFeet(m, readings, report);
+  for (std::size_t i = 0; i < legs.size(); ++i) {
     const Slot foot = FootSlot(static_cast<int>(i));
-    const FootReading reading =
-        ReadFoot(legs[i], y.angle_rad, beliefs_->p_BI, beliefs_->setup.noise);
-    if (core_.P().IsActive(foot)) {
-      Apply(
-          m.valid_ns, m.sensor,
-          [&](const NavigationState& x) { return LinearisedContact(reading, foot, x); }, report);
-      continue;
-    }
-    AddFoot(core_, reading, foot);
+    if (!standing_[i] || core_.P().IsActive(foot)) continue;
+    AddFoot(core_, readings[i], foot);
     if (!beliefs_->setup.floor.use) continue;
     UseFloor(
         m, foot, [foot](const NavigationState& x) { return x.At(foot); }, report);
   }
 }
 
+/// Linearised once and taken in one after the other: equal to all feet in one correction.
+template <class Core>
+void InOrderFilter<Core>::CorrectFeet(const Measurement& m, const FootReadings& readings,
+                                      Report* report) {
+  SlotVector increment;
+  increment.fill(Lane::Zero());
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    const Slot foot = FootSlot(static_cast<int>(i));
+    if (!standing_[i] || !core_.P().IsActive(foot)) continue;
+    const auto linearised = LinearisedContact(readings[i], foot, core_.x());
+    auto own = Core::Convert(linearised, core_.x());
+    own.MoveBy(increment);
+    IfItFits(
+        m.valid_ns, m.sensor, own, linearised.slots(),
+        [&](const KalmanCorrection<3>& kalman) {
+          kalman.AddGainTo(increment);
+          kalman.UpdateCovariance(core_.P());
+        },
+        report);
+  }
+  core_.Retract(increment);
+}
+
 template <class Core>
 template <class Point>
 void InOrderFilter<Core>::UseFloor(const Measurement& m, Slot slot, const Point& point,
                                    Report* report) {
-  const double height_m = beliefs_->setup.floor.height_m;
-  const double sigma_m = beliefs_->setup.noise.floor_height_m;
-  Apply(
-      m.valid_ns, m.sensor,
-      [&](const NavigationState& x) { return LinearisedHeight(height_m, sigma_m, slot, point(x)); },
-      report);
+  const Setup& setup = beliefs_->setup;
+  const auto model = [&](const NavigationState& x) {
+    return LinearisedHeight(setup.floor.height_m, setup.noise.floor_height_m, slot, point(x));
+  };
+  Apply(m.valid_ns, m.sensor, model, report);
 }
 
 template <class Core>
 void InOrderFilter<Core>::Use(const Measurement& m, const models::DepthSample& y, Report* report) {
-  Apply(
-      m.valid_ns, m.sensor,
-      [&](const NavigationState& x) {
-        return LinearisedDepth(y, beliefs_->X_IS[m.sensor].p, beliefs_->setup.noise.depth_m, x);
-      },
-      report);
+  const auto model = [&](const NavigationState& x) {
+    return LinearisedDepth(y, beliefs_->X_IS[m.sensor].p, beliefs_->setup.noise.depth_m, x);
+  };
+  Apply(m.valid_ns, m.sensor, model, report);
 }
 
 template <class Core>
@@ -292,7 +286,7 @@ template <class Core>
 void InOrderFilter<Core>::EndSample(Report* report) {
   const Setup& setup = beliefs_->setup;
   if (!setup.standstill.use) return;
-  rest_.Add(gyro_, accel_, sample_s_);
+  rest_.Add(held_.gyro(), held_.accel(), held_.seconds());
   if (!rest_.CanTell()) return;
   const Vector3d bias_of_first = BiasOfFirst();
   if (rest_.LooksMoving({bias_of_first, core_.x().accel_bias,
@@ -300,7 +294,7 @@ void InOrderFilter<Core>::EndSample(Report* report) {
                          LargestSigma(core_.P()(kAccelBiasSlot, kAccelBiasSlot))})) {
     return rest_.Restart();
   }
-  if (rest_.seconds() + 0.5 * sample_s_ < setup.standstill.window_s) return;
+  if (rest_.seconds() + 0.5 * held_.seconds() < setup.standstill.window_s) return;
   Apply(
       t_ns_, beliefs_->imu,
       [&](const NavigationState& x) {
@@ -331,32 +325,42 @@ void InOrderFilter<Core>::Blame(Correction& correction) {
 }
 
 template <class Core>
+template <int kRows, class Taken>
+std::optional<Correction> InOrderFilter<Core>::IfItFits(TimeNs t_ns, models::SensorId sensor,
+                                                        const Linearisation<kRows>& own,
+                                                        SlotSet seen, const Taken& use,
+                                                        Report* report) {
+  KalmanCorrection<kRows> kalman(core_.P(), own);
+  Correction correction = Described(kalman, own, core_.x().R);
+  correction.t_ns = t_ns;
+  correction.sensor = sensor;
+  Judge(beliefs_->gate, core_, seen, correction);
+  Blame(correction);
+  if (report != nullptr) report->Add(correction);
+  if (!IsApplied(correction.decision)) return std::nullopt;
+  if (correction.decision == Decision::kInflated) kalman.Inflate(beliefs_->gate.Limit(kRows));
+  use(kalman);
+  return correction;
+}
+
+template <class Core>
 template <class Model>
 std::optional<Correction> InOrderFilter<Core>::Apply(TimeNs t_ns, models::SensorId sensor,
                                                      const Model& model, Report* report) {
   const auto linearised = model(core_.x());
   constexpr int kRows = std::decay_t<decltype(linearised)>::Vector::RowsAtCompileTime;
-  const auto& own = Core::Convert(linearised, core_.x());
-  KalmanCorrection<kRows> kalman(core_.P(), own);
-  Correction correction = Described(kalman, own, core_.x().R);
-  correction.t_ns = t_ns;
-  correction.sensor = sensor;
-  Judge(beliefs_->gate, core_, linearised.slots(), correction);
-  Blame(correction);
-  if (report != nullptr) report->Add(correction);
-  if (!IsApplied(correction.decision)) return std::nullopt;
-  if (correction.decision == Decision::kInflated) {
-    kalman.Inflate(beliefs_->gate.Limit(kRows));
-  } else if constexpr (Core::kForm == ErrorForm::kRightInvariant) {
+  const auto use = [&](const KalmanCorrection<kRows>& kalman) {
     const int iterations = beliefs_->setup.iterations;
-    if (iterations > 1) {
-      CorrectIterated<kRows>(core_, model, iterations);
-      return correction;
+    if constexpr (Core::kForm == ErrorForm::kRightInvariant) {
+      if (iterations > 1 && !kalman.inflated()) {
+        return CorrectIterated<kRows>(core_, model, iterations);
+      }
     }
-  }
-  core_.Retract(kalman.Gain());
-  kalman.UpdateCovariance(core_.P());
-  return correction;
+    core_.Retract(kalman.Gain());
+    kalman.UpdateCovariance(core_.P());
+  };
+  return IfItFits(t_ns, sensor, Core::Convert(linearised, core_.x()), linearised.slots(), use,
+                  report);
 }
 
 template <class Core>

@@ -7,6 +7,7 @@
 #include "reckon/estimator/contact_model.h"
 #include "reckon/estimator/filter_beliefs.h"
 #include "reckon/estimator/gyro_filter.h"
+#include "reckon/estimator/held_sample.h"
 #include "reckon/estimator/linearisation.h"
 #include "reckon/estimator/mistrust.h"
 #include "reckon/estimator/report.h"
@@ -21,8 +22,8 @@ namespace reckon::estimator {
 /// time. `Core` is the error form; all else is shared, so that two filters of this kind differ in
 /// their error alone. Nothing here allocates.
 ///
-/// Missing IMU samples are bridged: the next sample is held over the gap, as if an unknown constant
-/// motion of 0.5 rad/s and 3 m/s² (one sigma) came on top.
+/// Missing IMU samples are bridged (HeldSample). Feet are linearised once and taken in one after
+/// the other, also where other corrections are iterated.
 ///
 /// Reports may be null: nobody hears of the corrections then.
 template <class Core>
@@ -56,7 +57,7 @@ class InOrderFilter {
   void StartAgain(models::TimeNs t_ns, const Eigen::Vector3d& up_I);
 
   /// A believed turn rate of I, bias and all, until the first sample is there.
-  void set_rate(const Eigen::Vector3d& w) { gyro_ = w; }
+  void set_rate(const Eigen::Vector3d& w) { held_.set_gyro(w); }
 
   /// The belief of the body, at `t_ns()`.
   Estimate Belief() const;
@@ -71,10 +72,19 @@ class InOrderFilter {
   void Use(const models::Measurement& m, const models::ContactSample& y, Report* report);
   void Use(const models::Measurement& /*m*/, const models::ImuSample& /*y*/, Report* /*report*/) {}
   void UseLegs(const models::Measurement& m, const models::EncoderSample& y, Report* report);
+  using FootReadings = std::array<FootReading, kMaxFeet>;
+  void CorrectFeet(const models::Measurement& m, const FootReadings& readings, Report* report);
   void RefineByImu(const models::Measurement& m, const models::ImuSample& y, Report* report);
   void StartMeanBias();
   template <class Point>
   void UseFloor(const models::Measurement& m, Slot slot, const Point& point, Report* report);
+
+  /// Judges and reports a correction of this form's coordinates, which sees the slots `seen` of a
+  /// right-invariant error, and if it is to be used, use(kalman) does so; nothing if it is not.
+  template <int kRows, class Taken>
+  std::optional<Correction> IfItFits(models::TimeNs t_ns, models::SensorId sensor,
+                                     const Linearisation<kRows>& own, SlotSet seen,
+                                     const Taken& use, Report* report);
 
   /// Corrects with what `model` says at a state, a Linearisation<1 or 3>; nothing if it was not
   /// used.
@@ -82,28 +92,20 @@ class InOrderFilter {
   std::optional<Correction> Apply(models::TimeNs t_ns, models::SensorId sensor, const Model& model,
                                   Report* report);
 
-  /// Decides what becomes of a correction, and whether the belief is at fault instead.
   /// Puts the blame for a correction that does not fit on its sensor or on the belief.
   void Blame(Correction& correction);
 
   ProcessNoise NoiseAt(models::TimeNs t_ns) const;
   TurnRate Turn() const;
   Eigen::Vector3d BiasOfFirst() const { return core_.x().gyro_bias + stage_.bias_of_first(); }
-  Eigen::Vector3d Rate() const { return beliefs_->gyro_source ? stage_.rate() : gyro_; }
+  Eigen::Vector3d Rate() const { return beliefs_->gyro_source ? stage_.rate() : held_.gyro(); }
 
   const FilterBeliefs* beliefs_;
   Core core_;
   models::TimeNs t_ns_ = 0;
 
-  // The sample that is held.
-  Eigen::Vector3d gyro_ = Eigen::Vector3d::Zero();   ///< in I, bias and all
-  Eigen::Vector3d accel_ = Eigen::Vector3d::Zero();  ///< likewise
-  double sample_s_ = 0.0;                            ///< its length
-  models::TimeNs covered_from_ns_ = 0;               ///< before this nothing was seen
-  double unseen_s_ = 0.0;                            ///< the length of that
+  HeldSample held_;
   Widening widening_;
-  bool gyro_saturated_ = false, accel_saturated_ = false;
-
   GyroFilterStage stage_;  ///< idle without a second source of the rate
   RestAverage rest_;
   std::array<bool, kMaxFeet> standing_{};

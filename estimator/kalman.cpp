@@ -69,6 +69,7 @@ template <int kRows>
 template <int kRows>
 void KalmanCorrection<kRows>::Inflate(double target) {
   const double factor = nis_ / target;
+  inflated_ = true;
   N_ += (factor - 1.0) * S_;
   S_inverse_ = (1.0 / factor) * S_inverse_;
 }
@@ -79,6 +80,12 @@ template <int kRows>
   const Row<kRows> weighted = S_inverse_ * z_;
   slots_.loops().ForEach([&](Slot i) RECKON_INLINED { increment[i] = C_[i] * weighted; });
   return increment;
+}
+
+template <int kRows>
+[[gnu::flatten]] void KalmanCorrection<kRows>::AddGainTo(SlotVector& increment) const {
+  const Row<kRows> weighted = S_inverse_ * z_;
+  slots_.loops().ForEach([&](Slot i) RECKON_INLINED { increment[i] += C_[i] * weighted; });
 }
 
 template <int kRows>
@@ -101,10 +108,11 @@ template <class Slots>
   slots.ForEach([&](Slot i) RECKON_INLINED { T[i] = Less(T[i], K[i], N); });
   slots.ForEach([&](Slot j) RECKON_INLINED {
     const auto K_j = Spread(K[j]);
-    slots.ForEachUpTo(
-        j, [&](Slot i) RECKON_INLINED { P(i, j) = Less(Less(P(i, j), C_[i], K_j), T[i], K_j); });
+    slots.ForEachUpTo(j, [&](Slot i) RECKON_INLINED {
+      const LaneMatrix block = Less(Less(P(i, j), C_[i], K_j), T[i], K_j);
+      P(i, j) = i == j ? Symmetric(block) : block;
+    });
   });
-  slots.ForEach([&](Slot i) RECKON_INLINED { P(i, i) = Symmetric(P(i, i)); });
 }
 
 template class KalmanCorrection<1>;

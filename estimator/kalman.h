@@ -25,9 +25,13 @@ class KalmanCorrection {
   /// Multiplies the measurement's noise so that NIS falls to `target`; exact for one row, and
   /// conservative for more (S grows as a whole).
   void Inflate(double target);
+  bool inflated() const { return inflated_; }
 
   /// K z with K = C S⁻¹.
   SlotVector Gain() const;
+
+  /// increment ← increment + K z, in the active slots.
+  void AddGainTo(SlotVector& increment) const;
 
   /// P⁺ in the structured Joseph form: with M = P − C Kᵀ, P⁺ = M − (M Hᵀ − K N) Kᵀ. Equal to
   /// (I − K H) P (I − K H)ᵀ + K N Kᵀ, whose round-off it keeps, at a third of the cost. `P` must be
@@ -44,6 +48,7 @@ class KalmanCorrection {
   Square<kRows> N_, S_, S_inverse_;
   Row<kRows> z_;
   double nis_;
+  bool inflated_ = false;
 };
 
 extern template class KalmanCorrection<1>;

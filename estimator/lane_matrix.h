@@ -79,9 +79,9 @@ struct LaneMatrix {
 }
 
 /// A with its lower triangle mirrored into the upper.
-[[gnu::always_inline]] inline LaneMatrix Symmetric(const LaneMatrix& A) {
-  const Lane a = A.column[0], b = A.column[1], c = A.column[2];
-  return {a, {a[1], b[1], b[2]}, {a[2], b[2], c[2]}};
+[[gnu::always_inline]] inline LaneMatrix Symmetric(LaneMatrix A) {
+  Lane::Mirror(A.column[0], A.column[1], A.column[2]);
+  return A;
 }
 
 /// A Bᵀ.
@@ -140,15 +140,22 @@ struct CrossProduct {
 
 /// d I + [v]×.
 [[gnu::always_inline]] inline LaneMatrix DiagonalAndCross(double d, Lane v) {
-  return {{d, v[2], -v[1]}, {-v[2], d, v[0]}, {v[1], -v[0], d}};
+  LaneMatrix A;
+  Lane::DiagonalAndCross(d, v, A.column[0], A.column[1], A.column[2]);
+  return A;
 }
 
 [[gnu::always_inline]] inline LaneMatrix ToLanes(const Eigen::Matrix3d& M) {
   return {Lane::Load(M.data()), Lane::Load(M.data() + 3), Lane::Load(M.data() + 6)};
 }
+[[gnu::always_inline]] inline void Store(const LaneMatrix& A, Eigen::Matrix3d& M) {
+  A.column[0].StoreFour(M.data());
+  A.column[1].StoreFour(M.data() + 3);
+  A.column[2].Store(M.data() + 6);
+}
 inline Eigen::Matrix3d ToEigen(const LaneMatrix& A) {
   Eigen::Matrix3d M;
-  for (int j = 0; j < 3; ++j) A.column[j].Store(M.data() + 3 * j);
+  Store(A, M);
   return M;
 }
 

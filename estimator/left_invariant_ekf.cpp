@@ -35,7 +35,7 @@ using Eigen::Vector3d;
   P_.slots().loops().ForEachMoved([&](Slot slot) {
     if (slot != kThetaSlot) x_.At(slot) = ToEigen(ToLane(x_.At(slot)) + RJ * increment[slot]);
   });
-  x_.R = ToEigen(R * theta.GammaInLanes(0));
+  Store(R * theta.GammaInLanes(0), x_.R);
   RetractBiases(increment);
 }
 

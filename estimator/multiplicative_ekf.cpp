@@ -29,7 +29,7 @@ using Eigen::Vector3d;
 }
 
 [[gnu::flatten]] void MultiplicativeEkf::Retract(const SlotVector& increment) {
-  x_.R = ToEigen(ToLanes(x_.R) * RotationSeries<3>(increment[kThetaSlot]).GammaInLanes(0));
+  Store(ToLanes(x_.R) * RotationSeries<3>(increment[kThetaSlot]).GammaInLanes(0), x_.R);
   P_.slots().loops().ForEachMoved([&](Slot slot) {
     if (slot != kThetaSlot) x_.At(slot) = ToEigen(ToLane(x_.At(slot)) + increment[slot]);
   });

@@ -54,7 +54,7 @@ inline NavigationState Propagated(const NavigationState& x, const Increment& u,
   const Lane v = ToLane(x.v), p = ToLane(x.p), a = ToLane(u.a), g = ToLane(gravity);
   const double dt = u.dt;
   NavigationState next = x;
-  next.R = ToEigen(R * u.G0);
+  Store(R * u.G0, next.R);
   next.v = ToEigen(v + dt * (R * (u.G1 * a) + g));
   next.p = ToEigen(p + dt * (v + dt * (R * (u.G2 * a) + 0.5 * g)));
   return next;

@@ -35,10 +35,12 @@ using Eigen::Vector3d;
   const RotationSeries<3> theta(increment[kThetaSlot]);
   const LaneMatrix turn = theta.GammaInLanes(0);
   const LaneMatrix J = theta.GammaInLanes(1);
-  x_.R = ToEigen(turn * ToLanes(x_.R));
-  P_.slots().loops().ForEachMoved([&](Slot slot) {
-    if (slot == kThetaSlot) return;
-    x_.At(slot) = ToEigen(turn * ToLane(x_.At(slot)) + J * increment[slot]);
+  Store(turn * ToLanes(x_.R), x_.R);
+  P_.slots().Visit([&](const auto& slots) {
+    slots.ForEachMoved([&](Slot slot) {
+      if (slot == kThetaSlot) return;
+      x_.At(slot) = ToEigen(turn * ToLane(x_.At(slot)) + J * increment[slot]);
+    });
   });
   RetractBiases(increment);
 }

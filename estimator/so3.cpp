@@ -17,18 +17,20 @@ constexpr std::array<double, 7> kInverseFactorial{1,        1,         1.0 / 2, 
 /// Below this x = |φ|² the two highest come from Horner's scheme and the recursion runs downwards,
 /// where it only shrinks errors; above it runs upwards from sine and cosine.
 constexpr double kSeriesLimit = 0.25;
+/// Terms of the series that leave less than 1e-17 of it up to there, and up to 0.03 rad.
+constexpr int kTerms = 8, kTermsOfSmall = 3;
+constexpr double kSmall = 1e-3;
 
-/// f_m(x) by Horner's scheme: eight terms leave less than 1e-17 of it at the limit.
-template <int m>
+/// f_m(x) by Horner's scheme.
+template <int m, int kLast>
 double Horner(double x) {
-  constexpr int kTerms = 8;
   constexpr auto kFactors = [] {
-    std::array<double, kTerms> factors{};  // of each coefficient to the one before
-    for (int k = 1; k <= kTerms; ++k) factors[k - 1] = -1.0 / ((2 * k + m) * (2 * k + m - 1));
+    std::array<double, kLast> factors{};  // of each coefficient to the one before
+    for (int k = 1; k <= kLast; ++k) factors[k - 1] = -1.0 / ((2 * k + m) * (2 * k + m - 1));
     return factors;
   }();
   double sum = 1.0;
-  for (int k = kTerms; k > 0; --k) sum = 1.0 + kFactors[k - 1] * x * sum;
+  for (int k = kLast; k > 0; --k) sum = 1.0 + kFactors[k - 1] * x * sum;
   return sum * kInverseFactorial[m];
 }
 
@@ -38,8 +40,10 @@ template <int kHighest>
 RotationSeries<kHighest>::RotationSeries(Lane phi) : phi_(phi) {
   const double x = Dot(phi, phi);
   if (x < kSeriesLimit) {
-    f_[kHighest] = Horner<kHighest>(x);
-    f_[kHighest - 1] = Horner<kHighest - 1>(x);
+    const bool small = x < kSmall;
+    f_[kHighest] = small ? Horner<kHighest, kTermsOfSmall>(x) : Horner<kHighest, kTerms>(x);
+    f_[kHighest - 1] =
+        small ? Horner<kHighest - 1, kTermsOfSmall>(x) : Horner<kHighest - 1, kTerms>(x);
     for (int m = kHighest - 2; m >= 0; --m) f_[m] = kInverseFactorial[m] - x * f_[m + 2];
   } else {
     const double angle = std::sqrt(x);

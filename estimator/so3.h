@@ -81,9 +81,11 @@ inline Eigen::Matrix3d LeftJacobianInverse(const Eigen::Vector3d& phi) {
 }
 
 /// R N Rᵀ: a covariance in other axes.
+[[gnu::always_inline]] inline LaneMatrix Turned(const LaneMatrix& R, const LaneMatrix& N) {
+  return TimesTransposed(R * N, R);
+}
 inline Eigen::Matrix3d Turned(const Eigen::Matrix3d& R, const Eigen::Matrix3d& N) {
-  const LaneMatrix lanes = ToLanes(R);
-  return ToEigen(TimesTransposed(lanes * ToLanes(N), lanes));
+  return ToEigen(Turned(ToLanes(R), ToLanes(N)));
 }
 
 }  // namespace reckon::estimator

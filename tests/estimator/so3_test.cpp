@@ -24,8 +24,8 @@ double Distance(const Matrix3d& a, const testing_estimator::Mat3& b) {
 }
 
 /// Angles from nothing to nearly a full turn, on both sides of the switch at 0.5 rad.
-constexpr double kAngles[] = {0.0,    1e-300, 1e-12, 1e-8, 1e-5,   1e-3, 0.1, 0.4999,
-                              0.5001, 1.0,    2.0,   3.0,  3.1415, 3.2,  5.0, 6.2};
+constexpr double kAngles[] = {0.0,    1e-300, 1e-12, 1e-8, 1e-5, 1e-3,   0.0316, 0.0317, 0.1,
+                              0.4999, 0.5001, 1.0,   2.0,  3.0,  3.1415, 3.2,    5.0,    6.2};
 
 TEST(Gamma, IsItsPowerSeries) {
   Draws draws(1);
