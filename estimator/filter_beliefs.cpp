@@ -1,6 +1,5 @@
 #include "reckon/estimator/filter_beliefs.h"
 
-#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -73,11 +72,6 @@ FilterBeliefs::FilterBeliefs(const Setup& told)
     contacts = suite.Find(suite.legs->contacts);
   }
   if (!told.gyro_filter.source.empty()) gyro_source = suite.Find(told.gyro_filter.source);
-  const bool depth = std::any_of(suite.sensors.begin(), suite.sensors.end(),
-                                 [](const auto& s) { return s.kind == SensorKind::kDepth; });
-  if (depth && !(told.noise.depth_m > 0.0)) {
-    throw std::invalid_argument("a suite with a depth sensor needs a positive depth_m");
-  }
   if (gyro_source == imu) {
     throw std::invalid_argument("the gyro filter's source `" + told.gyro_filter.source +
                                 "` is the IMU that it refines");
@@ -104,6 +98,8 @@ Refusal FilterBeliefs::WhyUseless(const models::Measurement& m) const {
     return contact->probability.size() == legs ? Refusal::kNone : Refusal::kInvalid;
   } else if (std::holds_alternative<models::ImuSample>(m.sample)) {
     return sensor == gyro_source ? Refusal::kNone : Refusal::kUnused;
+  } else if (std::holds_alternative<models::DepthSample>(m.sample)) {
+    return setup.noise.depth_m > 0.0 ? Refusal::kNone : Refusal::kUnused;
   }
   return Refusal::kNone;
 }

@@ -22,7 +22,7 @@ struct Noise {
   double wheel_vertical_m_per_s = 0.0;  ///< of the nonholonomic row v_z = 0
   double body_velocity_scale = 1.0;     ///< scales the standard deviation that the sensor delivers
   double pose_scale = 1.0;              ///< likewise
-  double depth_m = 0.0;                 ///< white, per depth sample
+  double depth_m = 0.0;                 ///< white, per depth sample; 0: such samples are not used
   double joint_angle_rad = 0.0;         ///< white, per sample and joint of a leg
   double foot_position_m = 0.0;  ///< of what a leg's kinematics leave out, per sample and axis
   double foot_slip_m_per_s_sqrt_hz = 0.0;  ///< white velocity of a standing foot

@@ -113,15 +113,12 @@ void Describe(Archive& a, EstimatorConfig& e) {
     a.Field("timeout_s", e.timeout_s, "Longest wait for an answer", AboveUpTo(0, 3600));
   }
   if (e.type == "inekf") a.Field("error", e.error, "The error that the filter keeps");
-  const bool is_filter = !is_process && e.type != "odometry";  // odometry weighs nothing
-  if (is_process || is_filter) {
+  if (e.type != "odometry") {  // which weighs nothing
     a.WordOr("noise", e.noise_source, Choices<NoiseSource>(), NoiseSource::kGiven, e.noise,
              "The noise believed; numbers that are not given are nominal");
-  }
-  if (is_filter) {
     a.Field("gate", e.gate, "Test of every correction's normalised innovation squared");
     a.Field("initialisation", e.initialisation, "How the first state is found");
-    if (e.type == "iterated_inekf") {
+    if (is_process || e.type == "iterated_inekf") {
       a.Field("iterations", e.iterations, "Of one correction, at most", Between(1, 20));
     }
     a.Field("history_s", e.history_s,

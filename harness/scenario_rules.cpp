@@ -267,8 +267,14 @@ class Rules {
 
   void CheckInitialisation(const std::string& path, const EstimatorConfig& estimator) const {
     if (estimator.initialisation.kind != estimator::InitialisationKind::kPose) return;
-    if (Sees<sim::PoseConfig>(estimator)) return;
-    Complain(path + "/initialisation/kind", "'pose' needs a pose sensor, and is given none");
+    const bool has_orientation =
+        std::any_of(s_.sensors.begin(), s_.sensors.end(), [&](const auto& entry) {
+          const auto* pose = std::get_if<sim::PoseConfig>(&entry.second.errors);
+          return pose != nullptr && pose->orientation && IsGiven(estimator, entry.first);
+        });
+    if (has_orientation) return;
+    Complain(path + "/initialisation/kind",
+             "'pose' needs a pose sensor that knows its orientation, and is given none");
   }
 
   /// The IMU that moves a filter: the robot's first, by name; empty if there is none.
@@ -298,12 +304,8 @@ class Rules {
   void CheckBelievedNoise(const std::string& path, const EstimatorConfig& estimator) const {
     Require(!estimator.standstill.use || estimator.noise.standstill_m_per_s > 0.0,
             path + "/standstill/use", "a positive noise standstill_m_per_s beside it");
-    const auto is_depth = [](const auto& entry) {
-      return std::holds_alternative<sim::DepthConfig>(entry.second.errors);
-    };
-    Require(estimator.noise.depth_m > 0.0 ||
-                std::none_of(s_.sensors.begin(), s_.sensors.end(), is_depth),
-            path + "/noise", "a positive depth_m: the robot has a depth sensor");
+    Require(estimator.noise.depth_m > 0.0 || !Sees<sim::DepthConfig>(estimator), path + "/noise",
+            "a positive depth_m: the estimator is given a depth sensor");
     Require(!estimator.floor.use || estimator.noise.floor_height_m > 0.0, path + "/floor/use",
             "a positive noise floor_height_m beside it");
   }

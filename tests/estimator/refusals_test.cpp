@@ -48,6 +48,16 @@ class Refusals : public ::testing::TestWithParam<const char*> {
   std::unique_ptr<Estimator> filter_;
 };
 
+TEST_P(Refusals, ADepthThatNoNoiseIsBelievedOf) {
+  estimator::Setup setup = TestSetup();
+  setup.suite.sensors.push_back({"depth", models::SensorKind::kDepth, {}, 100 * kMs});
+  const Measurement depth{4, 0, 0, models::DepthSample{1.0}};
+  filter_ = Make(GetParam(), setup);
+  ExpectRefused(depth, Refusal::kUnused);
+  setup.noise.depth_m = 0.1;
+  EXPECT_EQ(Make(GetParam(), setup)->Process(depth).corrections().size(), 1u);
+}
+
 TEST_P(Refusals, NumbersThatAreNotFinite) {
   for (const double bad : {kNan, kInfinity, -kInfinity}) {
     Measurement imu = RestingImu(105 * kMs);

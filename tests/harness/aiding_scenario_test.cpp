@@ -151,19 +151,29 @@ INSTANTIATE_TEST_SUITE_P(
              "found '-1'"},
         Case{"PoseWithoutPoseSensor", "estimators: {a: {initialisation: {kind: pose}}}\n",
              "sc.yaml:1:41: error: '/estimators/a/initialisation/kind': 'pose' needs a pose "
-             "sensor, and is given none"},
+             "sensor that knows its orientation, and is given none"},
         Case{"PoseSensorThatIsNotGiven",
              "sensors: {gps: {type: pose, frame: base_link}}\n"
              "estimators: {a: {sensors: [imu], initialisation: {kind: pose}}}\n",
              "sc.yaml:2:57: error: '/estimators/a/initialisation/kind': 'pose' needs a pose "
-             "sensor, and is given none"},
+             "sensor that knows its orientation, and is given none"},
         Case{"PoseSensorThatIsGiven",
              "sensors: {gps: {type: pose, frame: base_link}}\n"
              "estimators: {a: {sensors: [imu, gps], initialisation: {kind: pose}}}\n",
              kFine},
+        Case{"PoseSensorWithoutOrientation",
+             "sensors: {gps: {type: pose, frame: base_link, orientation: false}}\n"
+             "estimators: {a: {initialisation: {kind: pose}}}\n",
+             "sc.yaml:2:41: error: '/estimators/a/initialisation/kind': 'pose' needs a pose "
+             "sensor that knows its orientation, and is given none"},
+        Case{"EverythingOfAProcess",
+             "estimators: {a: {type: process, command: [a], gate: {action: \"off\"}, iterations: "
+             "3,\n"
+             " standstill: {use: true}, initialisation: {kind: static}}}\n",
+             kFine},
         Case{"IterationsOfAnother", "estimators: {a: {type: inekf, iterations: 3}}\n",
              "sc.yaml:1:31: error: key 'iterations' in '/estimators/a' belongs to type "
-             "'iterated_inekf', not to 'inekf'"},
+             "'iterated_inekf', 'process', not to 'inekf'"},
         Case{"TooManyIterations", "estimators: {a: {type: iterated_inekf, iterations: 21}}\n",
              "sc.yaml:1:52: error: '/estimators/a/iterations': expected a whole number from 1 to "
              "20, found '21'"},
@@ -172,7 +182,7 @@ INSTANTIATE_TEST_SUITE_P(
              "10, found '10.5'"},
         Case{"HistoryOfOdometry", "estimators: {a: {type: odometry, history_s: 1}}\n",
              "sc.yaml:1:34: error: key 'history_s' in '/estimators/a' belongs to type 'inekf', "
-             "'iterated_inekf', 'mekf', not to 'odometry'"},
+             "'iterated_inekf', 'mekf', 'process', not to 'odometry'"},
         Case{"NoWindow", "estimators: {a: {standstill: {window_s: 0}}}\n",
              "sc.yaml:1:41: error: '/estimators/a/standstill/window_s': expected a finite number "
              "above 0 and at most 60, found '0'"},
@@ -189,8 +199,12 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"DepthWithoutNoise",
              "sensors: {d: {type: depth, frame: base_link}}\n"
              "estimators: {a: {noise: {depth_m: 0}}}\n",
-             "sc.yaml:2:25: error: '/estimators/a/noise': expected a positive depth_m: the robot "
-             "has a depth sensor, found a map"},
+             "sc.yaml:2:25: error: '/estimators/a/noise': expected a positive depth_m: the "
+             "estimator is given a depth sensor, found a map"},
+        Case{"DepthThatIsNotGiven",
+             "sensors: {d: {type: depth, frame: base_link}}\n"
+             "estimators: {a: {sensors: [imu, wheels], noise: {depth_m: 0}}}\n",
+             kFine},
         Case{"SourceThatIsNone", "estimators: {a: {gyro_filter: {source: whels}}}\n",
              "sc.yaml:1:40: error: '/estimators/a/gyro_filter/source': there is no sensor 'whels'; "
              "did you mean 'wheels'?"},

@@ -24,7 +24,7 @@ const std::vector<std::string>& Seeds() {
       "faults:\n  - {sensor: imu, kind: dropout, at_s: 20, for_s: 0.5}\n"
       "  - {sensor: v, kind: time_jitter, at_s: 2, std_s: 0.01}\n",
       "sensors:\n  d: {type: depth, frame: base_link, noise_m: 0.1}\n"
-      "  p: {type: pose, frame: base_link, orientation: false, noise_position_m: [1, 1, 2]}\n"
+      "  p: {type: pose, frame: base_link, orientation: true, noise_position_m: [1, 1, 2]}\n"
       "estimators:\n  it: {type: iterated_inekf, iterations: 3, history_s: 1, noise: matched,\n"
       "    gyro_filter: {source: ''}, standstill: {use: false}, initialisation: {kind: pose}}\n",
       "estimators:\n  riekf: {type: inekf, error: right, gate: {action: inflate}}\n"
