@@ -219,6 +219,7 @@ void InOrderFilter<Core>::UseLegs(const Measurement& m, const models::EncoderSam
 template <class Core>
 void InOrderFilter<Core>::CorrectFeet(const Measurement& m, const FootReadings& readings,
                                       Report* report) {
+  if (core_.P().slots().feet().empty()) return;
   SlotVector increment;
   increment.fill(Lane::Zero());
   for (std::size_t i = 0; i < readings.size(); ++i) {
@@ -229,7 +230,7 @@ void InOrderFilter<Core>::CorrectFeet(const Measurement& m, const FootReadings& 
     own.MoveBy(increment);
     IfItFits(
         m.valid_ns, m.sensor, own, linearised.slots(),
-        [&](const KalmanCorrection<3>& kalman) {
+        [&](const KalmanCorrection<3>& kalman, Decision /*decision*/) {
           kalman.AddGainTo(increment);
           kalman.UpdateCovariance(core_.P());
         },
@@ -339,7 +340,7 @@ std::optional<Correction> InOrderFilter<Core>::IfItFits(TimeNs t_ns, models::Sen
   if (report != nullptr) report->Add(correction);
   if (!IsApplied(correction.decision)) return std::nullopt;
   if (correction.decision == Decision::kInflated) kalman.Inflate(beliefs_->gate.Limit(kRows));
-  use(kalman);
+  use(kalman, correction.decision);
   return correction;
 }
 
@@ -349,10 +350,10 @@ std::optional<Correction> InOrderFilter<Core>::Apply(TimeNs t_ns, models::Sensor
                                                      const Model& model, Report* report) {
   const auto linearised = model(core_.x());
   constexpr int kRows = std::decay_t<decltype(linearised)>::Vector::RowsAtCompileTime;
-  const auto use = [&](const KalmanCorrection<kRows>& kalman) {
+  const auto use = [&](const KalmanCorrection<kRows>& kalman, Decision decision) {
     const int iterations = beliefs_->setup.iterations;
     if constexpr (Core::kForm == ErrorForm::kRightInvariant) {
-      if (iterations > 1 && !kalman.inflated()) {
+      if (iterations > 1 && decision != Decision::kInflated) {
         return CorrectIterated<kRows>(core_, model, iterations);
       }
     }

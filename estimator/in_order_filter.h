@@ -80,7 +80,8 @@ class InOrderFilter {
   void UseFloor(const models::Measurement& m, Slot slot, const Point& point, Report* report);
 
   /// Judges and reports a correction of this form's coordinates, which sees the slots `seen` of a
-  /// right-invariant error, and if it is to be used, use(kalman) does so; nothing if it is not.
+  /// right-invariant error, and if it is to be used, use(kalman, decision) does so; nothing if it
+  /// is not.
   template <int kRows, class Taken>
   std::optional<Correction> IfItFits(models::TimeNs t_ns, models::SensorId sensor,
                                      const Linearisation<kRows>& own, SlotSet seen,

@@ -69,7 +69,6 @@ template <int kRows>
 template <int kRows>
 void KalmanCorrection<kRows>::Inflate(double target) {
   const double factor = nis_ / target;
-  inflated_ = true;
   N_ += (factor - 1.0) * S_;
   S_inverse_ = (1.0 / factor) * S_inverse_;
 }

@@ -25,7 +25,6 @@ class KalmanCorrection {
   /// Multiplies the measurement's noise so that NIS falls to `target`; exact for one row, and
   /// conservative for more (S grows as a whole).
   void Inflate(double target);
-  bool inflated() const { return inflated_; }
 
   /// K z with K = C S⁻¹.
   SlotVector Gain() const;
@@ -48,7 +47,6 @@ class KalmanCorrection {
   Square<kRows> N_, S_, S_inverse_;
   Row<kRows> z_;
   double nis_;
-  bool inflated_ = false;
 };
 
 extern template class KalmanCorrection<1>;

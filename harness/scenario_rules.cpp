@@ -267,12 +267,8 @@ class Rules {
 
   void CheckInitialisation(const std::string& path, const EstimatorConfig& estimator) const {
     if (estimator.initialisation.kind != estimator::InitialisationKind::kPose) return;
-    const bool has_orientation =
-        std::any_of(s_.sensors.begin(), s_.sensors.end(), [&](const auto& entry) {
-          const auto* pose = std::get_if<sim::PoseConfig>(&entry.second.errors);
-          return pose != nullptr && pose->orientation && IsGiven(estimator, entry.first);
-        });
-    if (has_orientation) return;
+    const auto knows_orientation = [](const sim::PoseConfig& pose) { return pose.orientation; };
+    if (Sees<sim::PoseConfig>(estimator, knows_orientation)) return;
     Complain(path + "/initialisation/kind",
              "'pose' needs a pose sensor that knows its orientation, and is given none");
   }
@@ -315,12 +311,17 @@ class Rules {
     return given.empty() || std::find(given.begin(), given.end(), sensor) != given.end();
   }
 
-  /// Whether the estimator is given a sensor of this type.
+  /// Whether the estimator is given a sensor of this type, of those that are `fit`.
+  template <class Config, class Fit>
+  bool Sees(const EstimatorConfig& estimator, const Fit& fit) const {
+    return std::any_of(s_.sensors.begin(), s_.sensors.end(), [&](const auto& entry) {
+      const auto* config = std::get_if<Config>(&entry.second.errors);
+      return config != nullptr && fit(*config) && IsGiven(estimator, entry.first);
+    });
+  }
   template <class Config>
   bool Sees(const EstimatorConfig& estimator) const {
-    return std::any_of(s_.sensors.begin(), s_.sensors.end(), [&](const auto& entry) {
-      return std::holds_alternative<Config>(entry.second.errors) && IsGiven(estimator, entry.first);
-    });
+    return Sees<Config>(estimator, [](const Config&) { return true; });
   }
 
   void CheckExpectations() const {

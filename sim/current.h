@@ -23,7 +23,7 @@ struct CurrentConfig {
 /// The current of a run: the mean and, on each axis, x_{k+1} = φ x_k + σ √(1 − φ²) n with
 /// φ = e^(−Δ/τ), drawn every Δ = 1 s from its stationary distribution on and joined by cubic
 /// Hermite splines with central slopes, so that the acceleration is continuous. Draws come from
-/// "current", channel = axis, index = second.
+/// "current", channel = axis, index = second + 1.
 class Current {
  public:
   /// Throws std::invalid_argument for numbers out of range.

@@ -30,14 +30,13 @@ struct WaterMotion {
 /// velocity relative to an irrotational current v_c.
 class Hydrodynamics {
  public:
-  /// `buoyancy_n` is ρ g V. Throws std::invalid_argument, which begins with `name` and names the
+  /// Throws std::invalid_argument, which begins with `name` and names the
   /// key: an added mass that is not symmetric or has a negative eigenvalue, a damping or volume
   /// that is negative, numbers that are not finite.
   Hydrodynamics(const std::string& name, const HydrodynamicsConfig& config, double density_kg_m3,
                 double gravity_m_s2);
 
   const Matrix6& added_mass() const { return config_.added_mass; }
-  double buoyancy_n() const { return buoyancy_n_; }
 
   /// The wrench about the origin of B in its axes, all but −M_A ν̇:
   ///     M_A [−ω × Rᵀv_c + Rᵀv̇_c; 0] − C_A(ν_r) ν_r − D_l ν_r − D_q |ν_r| ν_r + [f_b; r_B × f_b],
@@ -48,7 +47,7 @@ class Hydrodynamics {
 
  private:
   HydrodynamicsConfig config_;
-  double buoyancy_n_;
+  double buoyancy_n_;  ///< ρ g V
 };
 
 }  // namespace reckon::sim

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "estimator/reference.h"
@@ -9,9 +8,6 @@
 
 /// The dense textbook with feet, in long double: θ, v, p, the feet that stand, and the biases.
 namespace reckon::testing_estimator {
-
-using VecX = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
-using MatX = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 
 struct LeggedState {
   State body;
@@ -49,21 +45,6 @@ inline LeggedState TruthBehind(ErrorForm form, const LeggedState& hat, const Vec
   return x;
 }
 
-/// The Jacobian at zero of f: central differences, one Richardson step.
-template <class Function>
-MatX DifferencesAtZero(const Function& f, Eigen::Index size) {
-  constexpr Real h = 2e-4L;
-  MatX J(f(VecX::Zero(size)).size(), size);
-  for (Eigen::Index i = 0; i < size; ++i) {
-    const auto slope = [&](Real d) -> VecX {
-      const VecX e = d * VecX::Unit(size, i);
-      return (f(e) - f(-e)) / (2 * d);
-    };
-    J.col(i) = (4 * slope(h) - slope(2 * h)) / 3;
-  }
-  return J;
-}
-
 /// Belief of the reference: mean and covariance in the coordinates of a form.
 struct LeggedBelief {
   ErrorForm form;
@@ -72,9 +53,10 @@ struct LeggedBelief {
 
   Eigen::Index size() const { return P.rows(); }
 
-  /// One IMU sample held over dt; a foot slips as white noise of that density.
+  /// One IMU sample held over dt; a foot slips as white noise of that density. The sample's noise
+  /// acts as a bias that lives one step: Φ's bias columns, less the bias itself.
   void Propagate(const Vec3& gyro, const Vec3& accel, Real dt, Real gravity,
-                 const estimator::ProcessNoise& noise, Real slip) {
+                 const estimator::ProcessNoise& noise, Real slip = 0) {
     LeggedState next = x;
     next.body = Step(x.body, gyro, accel, dt, gravity);
     const MatX Phi = DifferencesAtZero(

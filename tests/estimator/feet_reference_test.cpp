@@ -9,7 +9,6 @@
 namespace reckon::estimator {
 namespace {
 
-using Eigen::Vector3d;
 using testing_estimator::BeliefOf;
 using testing_estimator::ContactsAt;
 using testing_estimator::Draws;
@@ -91,9 +90,8 @@ class FeetReference : public ::testing::Test {
                                   setup_.noise));
     }
     reference.CorrectStacked(readings);
-    const std::size_t corrections = readings.size();
     const Report report = filter_.Process(JointsAt(t_ns_, angles));
-    EXPECT_EQ(report.corrections().size(), corrections);
+    EXPECT_EQ(report.corrections().size(), readings.size());
     corrected_.Take(Belief(), reference);
   }
 

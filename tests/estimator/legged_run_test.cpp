@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
-#include "estimator/draws.h"
+#include "estimator/carried_body.h"
 #include "estimator/forms.h"
 #include "estimator/quadruped.h"
 #include "estimator/simulated_drive.h"
@@ -20,37 +20,24 @@ using testing_estimator::kMs;
 using testing_estimator::Measurement;
 using testing_estimator::TimeNs;
 
-constexpr double kThigh = 0.3, kShank = 0.4, kDt = 5e-3;
+constexpr double kThigh = 0.3, kShank = 0.4;
 
-/// A body that sways, bobs and pitches over four feet, of which a diagonal pair at a time stands:
-/// carried by the filter's own recursion, its joints by the law of cosines.
-class Trot {
+/// A body that sways, bobs and pitches over four feet, of which a diagonal pair at a time stands;
+/// its joints follow by the law of cosines.
+class Trot : public testing_estimator::CarriedBody {
  public:
-  Trot(const estimator::Setup& setup, std::uint64_t seed) : setup_(setup), draws_(seed) {
-    const Vector3d& p_BI = PBI();
-    x_.p = Vector3d(0, 0, 0.6) + p_BI;
-    x_.v = BodyVelocity(0.0);
-    for (int i = 0; i < 4; ++i) feet_[i] = Hip(i) + Vector3d(0, 0, -0.6) + Vector3d(0, 0, 0.6);
+  Trot(const estimator::Setup& setup, std::uint64_t seed) : CarriedBody(setup, seed) {
+    x_.p = Vector3d(0, 0, 0.6) + p_BI();
+    x_.v = VelocityOfI(0.0);
+    for (int i = 0; i < 4; ++i) feet_[i] = Hip(i);  // on the ground below
   }
 
   /// All messages of the next sample, IMU first.
   std::vector<Measurement> Advance() {
     const double t = models::Seconds(t_ns_);
-    const Noise& n = setup_.noise;
     const Vector3d w(0, 0.12 * 2.0 * std::cos(2.0 * (t + kDt / 2)), 0);
-    const Vector3d dv = (BodyVelocity(t + kDt) - BodyVelocity(t)) / kDt;
-    const Vector3d g(0, 0, -setup_.gravity_m_s2);
-    const Vector3d a = x_.R.transpose() * (dv - g);
-    const Eigen::Matrix3d R_SB = setup_.suite.sensors[testing_estimator::kImu].X_BS.R.transpose();
-    models::ImuSample imu;
-    imu.interval_ns = 5 * kMs;
-    const double rate = 1.0 / std::sqrt(kDt);
-    imu.gyro_rad_s = R_SB * (w + draws_.Vector(rate * n.gyro_noise_density_rad_per_s_sqrt_hz));
-    imu.accel_m_s2 = R_SB * (a + draws_.Vector(rate * n.accel_noise_density_m_per_s2_sqrt_hz));
-    x_ = Propagated(x_, {w, a, kDt}, g);
-    w_ = w;
-    t_ns_ += 5 * kMs;
-    std::vector<Measurement> all{{testing_estimator::kImu, t_ns_, t_ns_, imu}};
+    const Vector3d dv = (VelocityOfI(t + kDt) - VelocityOfI(t)) / kDt;
+    std::vector<Measurement> all{Carry(w, x_.R.transpose() * (dv - gravity()))};
     if (t_ns_ % (20 * kMs) != 0) return all;
     const bool first = t_ns_ / (300 * kMs) % 2 == 0;
     all.push_back(ContactsAt(t_ns_, first, !first, !first, first));
@@ -58,33 +45,10 @@ class Trot {
     return all;
   }
 
-  estimator::NavigationState Body() const {
-    estimator::NavigationState body = x_;
-    body.p -= x_.R * PBI();
-    body.v -= x_.R * w_.cross(PBI());
-    return body;
-  }
-
-  Prior DrawPrior() {
-    Prior prior = testing_estimator::TestPrior();
-    const auto body = Body();
-    const ErrorVector e =
-        prior.covariance.diagonal().cwiseSqrt().cwiseProduct(draws_.Normals<15>());
-    const Vector3d theta = e.head<3>();
-    prior.X_WB = {Exp(theta) * body.R,
-                  Exp(theta) * body.p + LeftJacobian(theta) * e.segment<3>(kPosition)};
-    prior.v_WB = Exp(theta) * body.v + LeftJacobian(theta) * e.segment<3>(kVelocity);
-    prior.gyro_bias_rad_s = e.segment<3>(kGyroBias);
-    prior.accel_bias_m_s2 = e.segment<3>(kAccelBias);
-    return prior;
-  }
-
  private:
-  const Vector3d& PBI() const { return setup_.suite.sensors[testing_estimator::kImu].X_BS.p; }
   static Vector3d Hip(int i) { return {i < 2 ? 0.3 : -0.3, i % 2 == 0 ? 0.2 : -0.2, 0}; }
 
-  /// Of I.
-  static Vector3d BodyVelocity(double t) {
+  static Vector3d VelocityOfI(double t) {
     return {0.05 * 3.0 * std::cos(3.0 * t), 0.0, 0.02 * 5.0 * std::cos(5.0 * t)};
   }
 
@@ -108,11 +72,6 @@ class Trot {
     return angles;
   }
 
-  estimator::Setup setup_;
-  Draws draws_;
-  TimeNs t_ns_ = 0;
-  estimator::NavigationState x_;  ///< of I
-  Vector3d w_ = Vector3d::Zero();
   std::array<Vector3d, 4> feet_;
 };
 
@@ -136,7 +95,8 @@ Outcome OutcomeOf(ErrorForm form, Aid aid) {
     setup.floor.use = aid == Aid::kLegsAndFloor;
     setup.noise.floor_height_m = 2e-3;
     Trot trot(setup, seed);
-    const auto filter = testing_estimator::MakeOf(form, setup, trot.DrawPrior());
+    const auto filter = testing_estimator::MakeOf(
+        form, setup, trot.DrawPrior(testing_estimator::TestPrior().covariance));
     for (int i = 1; i <= 4000; ++i) {
       for (const Measurement& m : trot.Advance()) {
         if (aid == Aid::kNone && m.sensor != testing_estimator::kImu) continue;
@@ -193,14 +153,10 @@ std::pair<double, double> AfterRest(ErrorForm form, bool standstill) {
     setup.noise.standstill_m_per_s = 1e-3;
     setup.noise.standstill_rad_per_s = 1e-5;
     Draws draws(seed);
-    Prior prior = testing_estimator::TestPrior();
-    const ErrorVector e = prior.covariance.diagonal().cwiseSqrt().cwiseProduct(draws.Normals<15>());
-    prior.X_WB.R = Exp(e.head<3>());
-    prior.v_WB = e.segment<3>(kVelocity);
-    prior.gyro_bias_rad_s = e.segment<3>(kGyroBias);
-    prior.accel_bias_m_s2 = e.segment<3>(kAccelBias);
+    const Prior prior = testing_estimator::DrawnPrior(
+        {}, Vector3d::Zero(), testing_estimator::TestPrior().covariance, draws);
     const auto filter = testing_estimator::MakeOf(form, setup, prior);
-    const double rate = 1.0 / std::sqrt(kDt);
+    const double rate = std::sqrt(200.0);
     for (int i = 1; i <= 4000; ++i) {
       Measurement imu = testing_estimator::RestingImu(i * 5 * kMs, setup);
       auto& sample = std::get<models::ImuSample>(imu.sample);

@@ -3,8 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "estimator/draws.h"
-#include "estimator/robot.h"
+#include "estimator/carried_body.h"
 
 namespace reckon::testing_estimator {
 
@@ -19,11 +18,11 @@ inline estimator::Setup PlanarSetup() {
   return setup;
 }
 
-/// A wheeled body that drives curves on level ground without slip, carried by the estimator's own
-/// recursion, with every sensor of PlanarSetup, ideal but for the noise that a filter believes in.
-class PlanarDrive {
+/// A wheeled body that drives curves on level ground without slip, with every sensor of
+/// PlanarSetup, ideal but for the noise that a filter believes in.
+class PlanarDrive : public CarriedBody {
  public:
-  PlanarDrive(const estimator::Setup& setup, std::uint64_t seed) : setup_(setup), draws_(seed) {
+  PlanarDrive(const estimator::Setup& setup, std::uint64_t seed) : CarriedBody(setup, seed) {
     x_.gyro_bias = draws_.Vector(1e-3);
     x_.accel_bias = draws_.Vector(2e-2);
     x_.p = p_BI();
@@ -46,44 +45,20 @@ class PlanarDrive {
     return due;
   }
 
-  estimator::NavigationState Body() const {
-    estimator::NavigationState body = x_;
-    body.p -= x_.R * p_BI();
-    body.v -= x_.R * w_.cross(p_BI());
-    return body;
-  }
-  TimeNs t_ns() const { return t_ns_; }
-
  private:
-  static constexpr double kDt = 5e-3;
-
   static double Speed(double t) { return 0.8 + 0.3 * std::sin(0.5 * t); }
-  const Eigen::Vector3d& p_BI() const { return setup_.suite.sensors[kImu].X_BS.p; }
   Eigen::Vector3d VelocityOfI(double t, const Eigen::Vector3d& w) const {
     return x_.R * (Eigen::Vector3d(Speed(t), 0, 0) + w.cross(p_BI()));
   }
 
   Measurement Imu() {
     const double t = models::Seconds(t_ns_) + kDt;
-    const Eigen::Vector3d g(0, 0, -setup_.gravity_m_s2);
-    w_ = {0, 0, 0.4 * std::sin(0.3 * t)};
-    const estimator::NavigationState before = x_;
-    x_.R = before.R * estimator::Exp(w_ * kDt);
-    const Eigen::Vector3d dv = VelocityOfI(t, w_) - before.v - g * kDt;
-    const Eigen::Vector3d a =
-        estimator::Gamma(1, w_ * kDt).inverse() * before.R.transpose() * dv / kDt;
-    const estimator::Noise& n = setup_.noise;
-    const double root = std::sqrt(kDt);
-    const Eigen::Matrix3d R_SB = setup_.suite.sensors[kImu].X_BS.R.transpose();
-    models::ImuSample sample;
-    sample.interval_ns = 5 * kMs;
-    sample.gyro_rad_s =
-        R_SB * (w_ + x_.gyro_bias + draws_.Vector(n.gyro_noise_density_rad_per_s_sqrt_hz / root));
-    sample.accel_m_s2 =
-        R_SB * (a + x_.accel_bias + draws_.Vector(n.accel_noise_density_m_per_s2_sqrt_hz / root));
-    x_ = estimator::Propagated(before, {w_, a, kDt}, g);
-    t_ns_ += 5 * kMs;
-    return {kImu, t_ns_, t_ns_, sample};
+    const Eigen::Vector3d w(0, 0, 0.4 * std::sin(0.3 * t));
+    const Eigen::Matrix3d R = x_.R;
+    x_.R = R * estimator::Exp(w * kDt);  // of the velocity at the step's end
+    const Eigen::Vector3d dv = VelocityOfI(t, w) - x_.v - gravity() * kDt;
+    x_.R = R;
+    return Carry(w, estimator::Gamma(1, w * kDt).inverse() * R.transpose() * dv / kDt);
   }
 
   Measurement Wheels() {
@@ -107,12 +82,6 @@ class PlanarDrive {
     sample.position_sigma_m = Eigen::Vector3d::Constant(0.1);
     return {kPoseSensor, t_ns_, t_ns_, sample};
   }
-
-  estimator::Setup setup_;
-  Draws draws_;
-  TimeNs t_ns_ = 0;
-  Eigen::Vector3d w_ = Eigen::Vector3d::Zero();
-  estimator::NavigationState x_;  ///< of I
 };
 
 }  // namespace reckon::testing_estimator

@@ -3,8 +3,8 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include "estimator/dense_legged.h"
 #include "estimator/draws.h"
-#include "estimator/reference.h"
 #include "reckon/estimator/left_invariant_ekf.h"
 #include "reckon/estimator/multiplicative_ekf.h"
 #include "reckon/estimator/right_invariant_ekf.h"
@@ -82,20 +82,11 @@ TYPED_TEST(Propagation, CovarianceIsTheDenseTextbookOfNumericalJacobians) {
       const Case c(draws, dt);
       auto core = At<TypeParam>(c.x, c.P);
       core.Propagate(c.Sample(), kDown, noise);
-      const Mat15 Phi = testing_estimator::Transition(
-          TypeParam::kForm, Widened(c.x), c.gyro.cast<Real>(), c.accel.cast<Real>(), dt, kGravity);
-      // Noise held over a sample acts as a bias that lives one step: Φ's bias columns, less the
-      // bias itself.
-      Vec15 q = Vec15::Zero();
-      q.segment<3>(kGyroBias).setConstant(noise.gyro / dt);
-      q.segment<3>(kAccelBias).setConstant(noise.accel / dt);
-      Mat15 J = Phi;
-      J.bottomRows<6>().setZero();
-      Mat15 expected =
-          Phi * c.P.cast<Real>() * Phi.transpose() + J * q.asDiagonal() * J.transpose();
-      expected.diagonal().segment<3>(kGyroBias).array() += noise.gyro_walk * dt;
-      expected.diagonal().segment<3>(kAccelBias).array() += noise.accel_walk * dt;
-      EXPECT_LT(testing_estimator::WorstCorrelationError(core.P().Dense(), expected), 1e-12) << dt;
+      testing_estimator::LeggedBelief expected{
+          TypeParam::kForm, {Widened(c.x), {}}, c.P.cast<Real>()};
+      expected.Propagate(c.gyro.cast<Real>(), c.accel.cast<Real>(), dt, kGravity, noise);
+      EXPECT_LT(testing_estimator::WorstCorrelationError(core.P().Dense(), expected.P), 1e-12)
+          << dt;
     }
   }
 }

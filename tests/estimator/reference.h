@@ -15,6 +15,8 @@ namespace reckon::testing_estimator {
 using Real = long double;
 using Vec3 = Eigen::Matrix<Real, 3, 1>;
 using Mat3 = Eigen::Matrix<Real, 3, 3>;
+using VecX = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
+using MatX = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 using Vec15 = Eigen::Matrix<Real, 15, 1>;
 using Mat15 = Eigen::Matrix<Real, 15, 15>;
 using estimator::ErrorForm;
@@ -137,15 +139,15 @@ inline State Step(const State& x, const Vec3& gyro, const Vec3& accel, Real dt, 
   return next;
 }
 
-/// The Jacobian at zero of a function of 15 coordinates: central differences, one Richardson step;
-/// good to about 1e-14 in long double.
-template <int rows, class Function>
-Eigen::Matrix<Real, rows, 15> Differences(const Function& f) {
+/// The Jacobian at zero of a function of `size` coordinates: central differences, one Richardson
+/// step; good to about 1e-14 in long double.
+template <class Function>
+MatX DifferencesAtZero(const Function& f, Eigen::Index size) {
   constexpr Real h = 2e-4L;
-  Eigen::Matrix<Real, rows, 15> J;
-  for (int i = 0; i < 15; ++i) {
-    const auto slope = [&](Real d) -> Eigen::Matrix<Real, rows, 1> {
-      const Vec15 e = d * Vec15::Unit(i);
+  MatX J(VecX(f(VecX::Zero(size))).size(), size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const auto slope = [&](Real d) -> VecX {
+      const VecX e = d * VecX::Unit(size, i);
       return (f(e) - f(-e)) / (2 * d);
     };
     J.col(i) = (4 * slope(h) - slope(2 * h)) / 3;
@@ -153,13 +155,10 @@ Eigen::Matrix<Real, rows, 15> Differences(const Function& f) {
   return J;
 }
 
-/// Φ of one step at `hat`: how the error goes over into the next one.
-inline Mat15 Transition(ErrorForm form, const State& hat, const Vec3& gyro, const Vec3& accel,
-                        Real dt, Real gravity) {
-  const State next = Step(hat, gyro, accel, dt, gravity);
-  return Differences<15>([&](const Vec15& e) -> Vec15 {
-    return Error(form, next, Step(TruthBehind(form, hat, e), gyro, accel, dt, gravity));
-  });
+/// Likewise of 15 coordinates and so many rows.
+template <int rows, class Function>
+Eigen::Matrix<Real, rows, 15> Differences(const Function& f) {
+  return DifferencesAtZero([&](const Vec15& e) { return f(e); }, 15);
 }
 
 /// max |A − B| over the entries, each in units of √(B_ii B_jj).

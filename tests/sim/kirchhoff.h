@@ -66,7 +66,7 @@ class Kirchhoff {
     return v;
   }
 
-  Slope At(double t, const Vec3& /*p*/, const Eigen::Quaterniond& q, const Vector6& total) const {
+  Slope At(double t, const Eigen::Quaterniond& q, const Vector6& total) const {
     const Eigen::Matrix3d R = q.normalized().toRotationMatrix();
     const Vector6 carried = Carried(t, R);
     const Vector6 twist = inverse_ * (total + M_water_ * carried);
@@ -97,11 +97,9 @@ class Kirchhoff {
 
   void Step(double t, double h) {
     const auto from = [&](const Slope& s, double dt) {
-      return At(t + dt, p_ + dt * s.p, Eigen::Quaterniond(q_.coeffs() + dt * s.q),
-                momentum_ + dt * s.momentum);
+      return At(t + dt, Eigen::Quaterniond(q_.coeffs() + dt * s.q), momentum_ + dt * s.momentum);
     };
-    const Slope a = At(t, p_, q_, momentum_), b = from(a, h / 2), c = from(b, h / 2),
-                d = from(c, h);
+    const Slope a = At(t, q_, momentum_), b = from(a, h / 2), c = from(b, h / 2), d = from(c, h);
     p_ += h / 6 * (a.p + 2 * b.p + 2 * c.p + d.p);
     q_.coeffs() += h / 6 * (a.q + 2 * b.q + 2 * c.q + d.q);
     q_.normalize();
