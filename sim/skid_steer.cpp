@@ -75,10 +75,8 @@ SkidSteer::SkidSteer(const RobotConfig& robot, const WorldConfig& config,
     : drive_(robot.skid_steer),
       damping_n_s_m_(robot.skid_steer.bristle_damping_n_s_m),
       dt_s_(config.physics_step_s),
-      kerbs_(config.terrain.kind == TerrainKind::kKerbs) {
-  const int base = mj_name2id(&model, mjOBJ_BODY, robot.base_link.c_str());
-  pose_address_ = model.jnt_qposadr[model.body_jntadr[base]];
-  twist_address_ = model.jnt_dofadr[model.body_jntadr[base]];
+      kerbs_(config.terrain.kind == TerrainKind::kKerbs),
+      base_(model, mj_name2id(&model, mjOBJ_BODY, robot.base_link.c_str())) {
   for (const auto& joint : robot.skid_steer.left_joints) {
     AddWheel(robot, config, urdf, model, joint, config.actual.wheel_radius_scale[0]);
   }
@@ -125,20 +123,6 @@ double SkidSteer::RestHeight(const mjModel& model) const {
   return height;
 }
 
-void SkidSteer::PlaceBase(const models::Pose& X_WB, mjData& data) const {
-  double* pose = data.qpos + pose_address_;
-  const Eigen::Quaterniond q(X_WB.R);
-  Vec3{pose} = X_WB.p;
-  pose[3] = q.w();
-  Vec3{pose + 4} = q.vec();
-}
-
-models::Pose SkidSteer::BasePose(const mjData& data) const {
-  const double* q = data.qpos + pose_address_;
-  return {Eigen::Quaterniond(q[3], q[4], q[5], q[6]).normalized().toRotationMatrix(),
-          {q[0], q[1], q[2]}};
-}
-
 void SkidSteer::ReadWheels(const mjData& data) {
   for (std::size_t i = 0; i < wheels_.size(); ++i) {
     angle_(i) = data.qpos[wheels_[i].angle_address];
@@ -154,8 +138,8 @@ void SkidSteer::Apply(const DriveCommand& command, const Terrain& terrain, mjDat
     PlaceKerbs(terrain, X_WB.p.x(), data);
   }
   const models::EncoderVector torque = drive_.Update(command, angle_, rate_, dt_s_);
-  const Eigen::Vector3d v_WB = ConstVec3(data.qvel + twist_address_);
-  const Eigen::Vector3d w_WB = X_WB.R * ConstVec3(data.qvel + twist_address_ + 3);
+  const Eigen::Vector3d v_WB = ConstVec3(data.qvel + base_.twist_address);
+  const Eigen::Vector3d w_WB = X_WB.R * ConstVec3(data.qvel + base_.twist_address + 3);
   Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();  // on B, in W
   for (std::size_t i = 0; i < wheels_.size(); ++i) {
     Wheel& wheel = wheels_[i];
@@ -177,8 +161,8 @@ void SkidSteer::Apply(const DriveCommand& command, const Terrain& terrain, mjDat
     slip_(i) = tyre.slip_m_s;
     load_(i) = contact.load_n;
   }
-  Vec3(data.qfrc_applied + twist_address_) = force;
-  Vec3(data.qfrc_applied + twist_address_ + 3) = X_WB.R.transpose() * moment;
+  Vec3(data.qfrc_applied + base_.twist_address) = force;
+  Vec3(data.qfrc_applied + base_.twist_address + 3) = X_WB.R.transpose() * moment;
 }
 
 /// Load, normal and point of each wheel: sums and force-weighted means over its contacts.

@@ -8,6 +8,7 @@
 #include "reckon/models/encoder_sample.h"
 #include "reckon/models/pose.h"
 #include "reckon/models/urdf_robot.h"
+#include "reckon/sim/free_joint.h"
 #include "reckon/sim/skid_steer_drive.h"
 #include "reckon/sim/skid_steer_model.h"
 #include "reckon/sim/tyre.h"
@@ -37,9 +38,9 @@ class SkidSteer {
   /// Height of the base over flat ground when the tyres carry the robot [m].
   double RestHeight(const mjModel& model) const;
 
-  /// The free joint.
-  models::Pose BasePose(const mjData& data) const;
-  void PlaceBase(const models::Pose& X_WB, mjData& data) const;
+  /// The base's free joint.
+  models::Pose BasePose(const mjData& data) const { return base_.Pose(data); }
+  void PlaceBase(const models::Pose& X_WB, mjData& data) const { base_.Place(X_WB, data); }
 
   /// The wheels as `data` had them when they were read last.
   const models::EncoderVector& angle_rad() const { return angle_; }
@@ -65,7 +66,7 @@ class SkidSteer {
   SkidSteerDrive drive_;
   double damping_n_s_m_, dt_s_;
   bool kerbs_;
-  int pose_address_ = 0, twist_address_ = 0;  // of the free joint
+  FreeJoint base_;
   std::vector<Wheel> wheels_;
   std::vector<WheelContact> kerb_contacts_;
   models::EncoderVector angle_, rate_, slip_, load_;

@@ -2,7 +2,7 @@
 
 #include <mujoco/mujoco.h>
 
-#include "reckon/models/pose.h"
+#include "reckon/sim/free_joint.h"
 #include "reckon/sim/hydrodynamics.h"
 
 namespace reckon::sim {
@@ -20,7 +20,7 @@ class SubmergedBody {
 
   /// Pose of B in W, and ν = (v, ω) of its origin in its axes, of the positions and velocities of
   /// `data`.
-  models::Pose Pose(const mjData& data) const;
+  models::Pose Pose(const mjData& data) const { return joint_.Pose(data); }
   Vector6 Twist(const mjData& data) const;
 
   /// Between mj_step1 and mj_step2: M ← M + T M_A Tᵀ with T = blkdiag(R, I), factored anew, and
@@ -31,7 +31,7 @@ class SubmergedBody {
              mjData& data) const;
 
  private:
-  int pose_address_, twist_address_;
+  FreeJoint joint_;
 };
 
 }  // namespace reckon::sim
