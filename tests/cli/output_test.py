@@ -147,6 +147,11 @@ class Check(ProgramTest):
         scenarios = sorted((SOURCE / "scenarios").rglob("*.yaml"))
         self.assertGreater(len(scenarios), 10)
         for scenario in scenarios:
+            if scenario.parent.name == "logs":
+                # A log that is not ours to keep beside the project may be missing.
+                done = self.call("check", scenario)
+                if done.returncode == 77 and "there is no log" in done.stderr:
+                    continue
             resolved = self.check(scenario)
             # Under the same name, in a folder of its own, with all that it needs inside.
             self.write(f"{scenario.stem}.yaml", resolved)

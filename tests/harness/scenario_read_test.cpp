@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "reckon/estimator/registry.h"
+#include "reckon/harness/log_file.h"
 #include "reckon/harness/robot_file.h"
 #include "reckon/harness/yaml_reader.h"
 #include "reckon/harness/yaml_writer.h"
@@ -250,8 +251,15 @@ TEST(ScenarioRead, AllScenariosAreRight) {
   int read = 0;
   for (const auto& file : ScenarioFiles()) {
     const std::string path = (fs::path(RECKON_SOURCE_DIR) / file).string();
-    EXPECT_NO_THROW(ReadScenario(path)) << path;
-    ++read;
+    try {
+      ReadScenario(path);
+      ++read;
+    } catch (const LogMissing&) {
+      // A log that is not ours to keep beside the project.
+      EXPECT_NE(path.find("/scenarios/logs/"), std::string::npos) << path;
+    } catch (const std::exception& error) {
+      ADD_FAILURE() << path << ": " << error.what();
+    }
   }
   EXPECT_GE(read, 12);  // what scenarios/husky holds
 }
