@@ -65,7 +65,9 @@ struct Correction {
 /// What one call of `Estimator::Process` did: fixed capacity, so that no step allocates.
 class [[nodiscard]] Report {
  public:
-  std::span<const Correction> corrections() const { return {corrections_.data(), size_}; }
+  /// A view into this report: a temporary one gives none, since a loop over it would outlive it.
+  std::span<const Correction> corrections() const& { return {corrections_.data(), size_}; }
+  std::span<const Correction> corrections() const&& = delete;
   /// Adds `correction`; more than `kMaxCorrections` is a bug.
   void Add(const Correction& correction);
 

@@ -140,9 +140,11 @@ TEST_P(ImuFilters, GateRejectsWarnsOrInflates) {
 
 TEST_P(ImuFilters, ACorrectionFromAheadWaitsForTheImu) {
   auto waiting = Make(GetParam()), punctual = Make(GetParam());
-  EXPECT_TRUE(waiting->Process(WheelsAt(10 * kMs, 0.5, 0.5)).corrections().empty());
-  EXPECT_TRUE(waiting->Process(RestingImu(5 * kMs)).corrections().empty());
-  const Report report = waiting->Process(RestingImu(10 * kMs));
+  Report report = waiting->Process(WheelsAt(10 * kMs, 0.5, 0.5));
+  EXPECT_TRUE(report.corrections().empty());
+  report = waiting->Process(RestingImu(5 * kMs));
+  EXPECT_TRUE(report.corrections().empty());
+  report = waiting->Process(RestingImu(10 * kMs));
   ASSERT_EQ(report.corrections().size(), 1u);
   EXPECT_EQ(report.corrections()[0].t_ns, 10 * kMs);
   Rest(*punctual, 0, 10 * kMs);

@@ -100,7 +100,8 @@ Outcome OutcomeOf(ErrorForm form, Aid aid) {
     for (int i = 1; i <= 4000; ++i) {
       for (const Measurement& m : trot.Advance()) {
         if (aid == Aid::kNone && m.sensor != testing_estimator::kImu) continue;
-        for (const Correction& c : filter->Process(m).corrections()) {
+        const Report report = filter->Process(m);
+        for (const Correction& c : report.corrections()) {
           ++sum.corrections;
           sum.rejected += c.decision == Decision::kRejected;
         }

@@ -16,8 +16,8 @@ function(must_not_compile layer)
 endfunction()
 
 must_not_compile(models models_includes_estimator)
-must_not_compile(estimator estimator_includes_harness estimator_includes_recorder
-                 estimator_includes_sim estimator_includes_truth)
+must_not_compile(estimator corrections_of_temporary estimator_includes_harness
+                 estimator_includes_recorder estimator_includes_sim estimator_includes_truth)
 if(RECKON_WITH_MUJOCO)
   must_not_compile(sim sim_includes_estimate sim_includes_estimator sim_includes_metrics
                    sim_includes_track)
