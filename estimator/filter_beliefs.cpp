@@ -100,6 +100,9 @@ Refusal FilterBeliefs::WhyUseless(const models::Measurement& m) const {
     return sensor == gyro_source ? Refusal::kNone : Refusal::kUnused;
   } else if (std::holds_alternative<models::DepthSample>(m.sample)) {
     return setup.noise.depth_m > 0.0 ? Refusal::kNone : Refusal::kUnused;
+  } else if (const auto* velocity = std::get_if<models::BodyVelocitySample>(&m.sample)) {
+    const bool useful = velocity->over_ground || setup.noise.water_current_m_per_s > 0.0;
+    return useful ? Refusal::kNone : Refusal::kUnused;
   }
   return Refusal::kNone;
 }

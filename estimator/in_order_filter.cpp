@@ -172,6 +172,9 @@ void InOrderFilter<Core>::Use(const Measurement& m, const models::BodyVelocitySa
   models::BodyVelocitySample scaled = y;
   const double scale = beliefs_->setup.noise.body_velocity_scale;
   scaled.covariance *= scale * scale;
+  if (!y.over_ground) {
+    scaled.covariance.diagonal().array() += std::pow(beliefs_->setup.noise.water_current_m_per_s, 2);
+  }
   const auto model = [&](const NavigationState& x) {
     return LinearisedVelocity(scaled, beliefs_->X_IS[m.sensor], Turn(), x);
   };

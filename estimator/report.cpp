@@ -46,6 +46,8 @@ std::string_view Name(Refusal refusal) {
       return "unused";
     case Refusal::kDuplicate:
       return "duplicate";
+    case Refusal::kNoLock:
+      return "no_lock";
   }
   return "unknown";
 }

@@ -34,6 +34,7 @@ enum class Refusal : std::uint8_t {
   kInvalid,     ///< malformed: wrong size, non-positive interval, indefinite covariance
   kUnused,      ///< this estimator has no use for this sensor
   kDuplicate,   ///< the sensor has sent a sample of this stamp before
+  kNoLock,      ///< the sensor says itself that it has lost what it measures
 };
 
 /// Whether a correction of this decision moves the state.

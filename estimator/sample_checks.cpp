@@ -41,6 +41,7 @@ Refusal Check(const models::EncoderSample& sample) {
 }
 
 Refusal Check(const models::BodyVelocitySample& sample) {
+  if (!sample.valid) return Refusal::kNoLock;
   if (!sample.covariance.allFinite()) return Refusal::kNotFinite;
   const Refusal numbers = Bounded(sample.v_WS_S, kLargestVelocity);
   if (numbers != Refusal::kNone) return numbers;

@@ -5,7 +5,7 @@
 namespace reckon::estimator {
 namespace {
 
-constexpr std::array<NoiseField, 17> kFields{{
+constexpr std::array<NoiseField, 18> kFields{{
     {"gyro_noise_density_rad_per_s_sqrt_hz", &Noise::gyro_noise_density_rad_per_s_sqrt_hz},
     {"accel_noise_density_m_per_s2_sqrt_hz", &Noise::accel_noise_density_m_per_s2_sqrt_hz},
     {"gyro_bias_walk_rad_per_s2_sqrt_hz", &Noise::gyro_bias_walk_rad_per_s2_sqrt_hz},
@@ -23,6 +23,7 @@ constexpr std::array<NoiseField, 17> kFields{{
     {"standstill_m_per_s", &Noise::standstill_m_per_s},
     {"standstill_rad_per_s", &Noise::standstill_rad_per_s},
     {"floor_height_m", &Noise::floor_height_m},
+    {"water_current_m_per_s", &Noise::water_current_m_per_s},
 }};
 
 }  // namespace

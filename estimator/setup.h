@@ -30,6 +30,8 @@ struct Noise {
   double standstill_m_per_s = 0.0;         ///< what may be left of the velocity at standstill
   double standstill_rad_per_s = 0.0;       ///< and of the angular rate
   double floor_height_m = 0.0;             ///< of a flat floor, white, per use
+  /// Of the water's velocity, for velocities relative to it; 0: such samples are not used.
+  double water_current_m_per_s = 0.0;
 };
 
 /// One entry of the flat vector: its stable name (with the unit) and where it lives.

@@ -46,6 +46,10 @@ void Put(const models::EncoderSample& sample, RowEncoder& row) {
 void Put(const models::BodyVelocitySample& sample, RowEncoder& row) {
   row.Put(sample.v_WS_S);
   row.Put(sample.covariance);
+  row.Put(sample.valid);
+  row.Put(sample.over_ground);
+  row.Put(sample.figure_of_merit_m_s);
+  row.Put(sample.beams);
 }
 
 void Put(const models::DepthSample& sample, RowEncoder& row) { row.Put(sample.depth_m); }
@@ -86,6 +90,10 @@ models::Sample GetBodyVelocity(RowDecoder& row) {
   models::BodyVelocitySample sample;
   sample.v_WS_S = row.Vector();
   sample.covariance = row.Matrix();
+  sample.valid = row.Flag();
+  sample.over_ground = row.Flag();
+  sample.figure_of_merit_m_s = row.Get<double>();
+  sample.beams = row.Get<std::uint8_t>();
   return sample;
 }
 

@@ -76,6 +76,10 @@ void AddEncoders(Columns& columns, const std::vector<std::string>& channels) {
 void AddBodyVelocity(Columns& columns) {
   AddVector(columns, "v_WS_S", "m_s", "m/s", "S", "velocity of the sensor's origin in W");
   AddMatrix(columns, "covariance", "_m2_s2", "m^2/s^2", "S", "as delivered by the sensor");
+  Add(columns, "valid", Type::kUint8, "1", "0: the sensor has lost what it measures");
+  Add(columns, "over_ground", Type::kUint8, "1", "0: relative to the water around the sensor");
+  Add(columns, "figure_of_merit_m_s", Type::kFloat64, "m/s", "how its beams contradict each other");
+  Add(columns, "beams", Type::kUint8, "1", "bit i: beam i had an answer");
 }
 
 void AddDepth(Columns& columns) {
@@ -103,9 +107,9 @@ constexpr std::array<std::string_view, 3> kErrorForms{"right_invariant", "left_i
                                                       "multiplicative"};
 constexpr std::array<std::string_view, 6> kDecisions{"accepted", "warned",  "inflated",
                                                      "rejected", "refused", "widened"};
-constexpr std::array<std::string_view, 11> kRefusals{
+constexpr std::array<std::string_view, 12> kRefusals{
     "none",        "not_finite", "not_initialised", "moving", "backwards", "late",
-    "from_future", "gap",        "invalid",         "unused", "duplicate"};
+    "from_future", "gap",        "invalid",         "unused", "duplicate", "no_lock"};
 
 constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kConventions{{
     {"format", "reckon recording 1"},

@@ -99,6 +99,8 @@ void CsvStream::FindColumns() {
       need({"v_x_m_s", "v_y_m_s", "v_z_m_s"});
       more_columns_ = FindAll(table_, {"cov_xx_m2_s2", "cov_xy_m2_s2", "cov_xz_m2_s2",
                                        "cov_yy_m2_s2", "cov_yz_m2_s2", "cov_zz_m2_s2"});
+      valid_ = table_.Find("valid");
+      over_ground_ = table_.Find("over_ground");
       return;
     case SensorKind::kDepth:
       return need({"depth_m"});
@@ -185,6 +187,8 @@ models::Sample CsvStream::ReadVelocity() const {
   models::BodyVelocitySample sample;
   sample.v_WS_S = Vector(table_, {columns_[0], columns_[1], columns_[2]});
   sample.covariance = sensor_.noise_m_per_s.cwiseAbs2().asDiagonal();
+  sample.valid = !valid_ || table_.Number(*valid_) != 0.0;
+  sample.over_ground = !over_ground_ || table_.Number(*over_ground_) != 0.0;
   if (more_columns_.empty()) return sample;
   std::size_t k = 0;
   for (Eigen::Index i = 0; i < 3; ++i) {

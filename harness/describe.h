@@ -23,7 +23,7 @@ namespace reckon::harness {
 //   a.Directive(key, doc)                       a key that was dealt with when the file was loaded
 //
 // Keys that only some kinds have stand behind a plain `if` after a.Kind. Archive::kWrites is true
-// for the archive that writes.
+// for the archive that writes, kListsAll for one that has no values and wants every key.
 
 /// The numbers that a field takes; they hold for each entry of a list.
 struct Limits {

@@ -54,14 +54,47 @@ std::span<const Choice<sim::FaultKind>> Choices() {
 }
 
 template <>
-std::span<const Choice<models::SensorKind>> Choices() {
-  using Kind = models::SensorKind;
+std::span<const Choice<sim::SensorType>> Choices() {
+  using Type = sim::SensorType;
+  static const std::vector<Choice<Type>> kChoices{
+      {Type::kImu, "imu", "gyroscope and accelerometer"},
+      {Type::kEncoders, "encoders", "rotary encoders of all wheels"},
+      {Type::kBodyVelocity, "body_velocity", "an ideal velocity sensor with white noise"},
+      {Type::kDepth, "depth", "a pressure sensor: how deep it lies"},
+      {Type::kPose, "pose", "an absolute pose or position from outside, with white noise"},
+      {Type::kDvl, "dvl", "a Doppler velocity log, beam by beam"}};
+  return kChoices;
+}
+
+template <>
+std::span<const Choice<sim::DriveKind>> Choices() {
+  using Kind = sim::DriveKind;
   static const std::vector<Choice<Kind>> kChoices{
-      {Kind::kImu, "imu", "gyroscope and accelerometer"},
-      {Kind::kEncoders, "encoders", "rotary encoders of all wheels"},
-      {Kind::kBodyVelocity, "body_velocity", "an ideal velocity sensor with white noise"},
-      {Kind::kDepth, "depth", "a pressure sensor: how deep it lies"},
-      {Kind::kPose, "pose", "an absolute pose or position from outside, with white noise"}};
+      {Kind::kSkidSteer, "skid_steer", "wheels on the ground, one motor a side"},
+      {Kind::kUnderwater, "underwater", "thrusters in the sea"}};
+  return kChoices;
+}
+
+template <>
+std::span<const Choice<sim::MissionKind>> Choices() {
+  using Kind = sim::MissionKind;
+  static const std::vector<Choice<Kind>> kChoices{
+      {Kind::kHover, "hover", "goes down and holds its place"},
+      {Kind::kDive, "dive", "goes down, stays a while and returns"},
+      {Kind::kSquare, "square", "laps of a square at one depth"},
+      {Kind::kLawnmower, "lawnmower", "parallel tracks at one depth"},
+      {Kind::kHelix, "helix", "circles from one depth to another"},
+      {Kind::kWaypoints, "waypoints", "through given points"}};
+  return kChoices;
+}
+
+template <>
+std::span<const Choice<sim::FeatureKind>> Choices() {
+  using Kind = sim::FeatureKind;
+  static const std::vector<Choice<Kind>> kChoices{
+      {Kind::kBoulder, "boulder", "an ellipsoid, its lower half in the ground"},
+      {Kind::kBlock, "block", "a box on the ground"},
+      {Kind::kPipe, "pipe", "a lying cylinder: its length, then twice its diameter"}};
   return kChoices;
 }
 

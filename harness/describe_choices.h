@@ -8,7 +8,7 @@
 #include "reckon/ground_truth/score_options.h"
 #include "reckon/harness/describe.h"
 #include "reckon/harness/scenario.h"
-#include "reckon/models/suite.h"
+#include "reckon/sim/robot_config.h"
 #include "reckon/sim/sensor_config.h"
 #include "reckon/sim/world_config.h"
 
@@ -31,7 +31,13 @@ std::span<const Choice<sim::FaultKind>> Choices();
 template <>
 std::span<const Choice<sim::FaultChannels>> Choices();
 template <>
-std::span<const Choice<models::SensorKind>> Choices();  ///< those that can be simulated
+std::span<const Choice<sim::SensorType>> Choices();
+template <>
+std::span<const Choice<sim::DriveKind>> Choices();
+template <>
+std::span<const Choice<sim::MissionKind>> Choices();
+template <>
+std::span<const Choice<sim::FeatureKind>> Choices();
 template <>
 std::span<const Choice<estimator::GateAction>> Choices();
 template <>
@@ -46,7 +52,8 @@ std::span<const Choice<NoiseSource>> Choices();
 /// The types of estimator: the registry's names and `process`.
 const std::vector<Choice<std::string>>& EstimatorTypes();
 
-/// The grades of an IMU.
+/// The grades of an IMU and of a Doppler log.
 const std::vector<Choice<std::string>>& ImuGrades();
+const std::vector<Choice<std::string>>& DvlGrades();
 
 }  // namespace reckon::harness

@@ -38,6 +38,9 @@ void Describe(Archive& a, estimator::Noise& n) {
           "What may be left of the velocity at standstill", Between(0, 100));
   a.Field("standstill_rad_per_s", n.standstill_rad_per_s,
           "What may be left of the turn rate at standstill", Between(0, 10));
+  a.Field("water_current_m_per_s", n.water_current_m_per_s,
+          "Of the water's velocity, for velocities relative to it; 0: they are not used",
+          Between(0, 10));
   a.Field("floor_height_m", n.floor_height_m, "Height of a flat floor, white, a use",
           Between(0, 100));
 }

@@ -13,6 +13,7 @@ namespace reckon::harness {
 class KeyCollector {
  public:
   static constexpr bool kWrites = false;
+  static constexpr bool kListsAll = true;
 
   explicit KeyCollector(std::size_t forced) : forced_(forced) {}
 

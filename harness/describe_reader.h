@@ -17,6 +17,7 @@ namespace reckon::harness {
 class MapReader {
  public:
   static constexpr bool kWrites = false;
+  static constexpr bool kListsAll = false;
 
   MapReader(const YamlNode& node, std::string path, Problems& problems)
       : node_(node), path_(std::move(path)), problems_(problems) {}

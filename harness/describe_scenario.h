@@ -5,6 +5,7 @@
 #include <string>
 
 #include "reckon/harness/comparison.h"
+#include "reckon/harness/describe_drive.h"
 #include "reckon/harness/describe_estimators.h"
 #include "reckon/harness/describe_sensors.h"
 #include "reckon/harness/describe_world.h"
@@ -100,10 +101,16 @@ void DescribeSimulation(Archive& a, Scenario& s) {
           "simulator's");
   a.Field("robot", s.robot, "A folder in models/");
   a.Field("duration_s", s.duration_s, "Simulated time", AboveUpTo(0, 1e5));
-  a.Field("world", s.world, "Truth: the ground and the physics");
-  a.Field("motion", s.world.motion, "Truth: what the driver does");
+  a.Field("drive", s.drive, "Truth: what moves the robot");
+  a.Field("world", s.world, "Truth: the ground, the water and the physics");
+  const bool swims = sim::KindOf(s.drive) == sim::DriveKind::kUnderwater;
+  if (Archive::kListsAll || !swims) {
+    a.Field("motion", s.world.motion, "Truth: what the driver of a robot on wheels does");
+  }
+  if (Archive::kListsAll || swims) {
+    a.Field("mission", s.world.mission, "Truth: what an underwater vehicle does");
+  }
   a.Field("actual", s.world.actual, "Truth: how the simulated robot differs from the nominal one");
-  a.Field("drive", s.drive, "Truth: motors and tyres");
   a.Removable("sensors", s.sensors,
               "Truth: what the sensors send; `off` removes one of the robot's");
   a.Field("faults", s.faults, "Truth: what goes wrong with a sensor, and when");

@@ -1,5 +1,6 @@
 #include "reckon/harness/describe_sensors.h"
 
+#include "reckon/sim/dvl_grades.h"
 #include "reckon/sim/faults.h"
 #include "reckon/sim/imu_grades.h"
 
@@ -10,6 +11,22 @@ void ApplyGrade(sim::ImuConfig& imu) {
     imu.gyro = grade->gyro;
     imu.accel = grade->accel;
   }
+}
+
+void ApplyGrade(sim::DvlConfig& dvl) {
+  if (const sim::DvlGrade* grade = sim::FindDvlGrade(dvl.grade)) dvl = grade->config;
+}
+
+const std::vector<Choice<std::string>>& DvlGrades() {
+  static const std::vector<Choice<std::string>> kGrades = [] {
+    std::vector<Choice<std::string>> grades;
+    for (const sim::DvlGrade& grade : sim::DvlGrades()) {
+      grades.push_back(
+          {std::string(grade.name), std::string(grade.name), std::string(grade.source)});
+    }
+    return grades;
+  }();
+  return kGrades;
 }
 
 const std::vector<Choice<std::string>>& ImuGrades() {
@@ -43,20 +60,20 @@ std::span<const Choice<sim::FaultChannels>> Choices() {
   return kChoices;
 }
 
-sim::SensorErrors DefaultErrors(models::SensorKind kind) {
-  switch (kind) {
-    case models::SensorKind::kImu:
+sim::SensorErrors DefaultErrors(sim::SensorType type) {
+  switch (type) {
+    case sim::SensorType::kImu:
       return sim::ImuConfig{};
-    case models::SensorKind::kEncoders:
+    case sim::SensorType::kEncoders:
       return sim::EncoderConfig{};
-    case models::SensorKind::kBodyVelocity:
+    case sim::SensorType::kBodyVelocity:
       return sim::BodyVelocityConfig{};
-    case models::SensorKind::kDepth:
+    case sim::SensorType::kDepth:
       return sim::DepthConfig{};
-    case models::SensorKind::kPose:
+    case sim::SensorType::kPose:
       return sim::PoseConfig{};
-    case models::SensorKind::kContacts:
-      break;  // no sensor of contact is simulated, so no scenario names one
+    case sim::SensorType::kDvl:
+      return sim::DvlConfig{};
   }
   return sim::ImuConfig{};
 }

@@ -26,10 +26,11 @@ struct ListTraits<std::array<E, N>> {
   static constexpr std::size_t kSize = N;
   using Element = E;
 };
-template <>
-struct ListTraits<Eigen::Vector3d> {
+template <int N>
+  requires(N > 0)
+struct ListTraits<Eigen::Matrix<double, N, 1>> {
   static constexpr bool kIsList = true;
-  static constexpr std::size_t kSize = 3;
+  static constexpr std::size_t kSize = N;
   using Element = double;
 };
 template <class E>

@@ -43,6 +43,36 @@ void Describe(Archive& a, sim::PatchConfig& p) {
           Within(sim::TerrainConfig::kFriction));
 }
 
+template <class Archive>
+void Describe(Archive& a, sim::CurrentConfig& c) {
+  a.Field("mean_m_s", c.mean_m_s, "Mean velocity of the water, world axes",
+          Within(sim::CurrentConfig::kSpeed));
+  a.Field("sigma_m_s", c.sigma_m_s,
+          "Standard deviation of each axis of a first-order Gauss-Markov process on top",
+          Within(sim::CurrentConfig::kSigma));
+  a.Field("time_constant_s", c.time_constant_s, "Its time constant",
+          Within(sim::CurrentConfig::kTimeConstant));
+}
+
+template <class Archive>
+void Describe(Archive& a, sim::FeatureConfig& f) {
+  a.Field("kind", f.kind, "What it is", {}, Need::kHere);
+  a.Field("at_m", f.at_m, "Its middle, [x, y]", Within(sim::FeatureConfig::kAt), Need::kHere);
+  a.Field("size_m", f.size_m, "Along its own x, its y and up", Within(sim::FeatureConfig::kSize));
+  a.Field("yaw_deg", f.yaw_deg, "Direction of its own x", Within(sim::FeatureConfig::kYaw));
+}
+
+template <class Archive>
+void Describe(Archive& a, sim::WaterConfig& w) {
+  using Water = sim::WaterConfig;
+  a.Field("density_kg_m3", w.density_kg_m3, "Of the water", Within(Water::kDensity));
+  a.Field("sound_speed_m_s", w.sound_speed_m_s, "In the water", Within(Water::kSoundSpeed));
+  a.Field("depth_m", w.depth_m, "Of the bottom under x = y = 0 (of a rough one: on the mean)",
+          Within(Water::kDepth));
+  a.Field("current", w.current, "How the water flows");
+  a.Field("features", w.features, "What lies on the bottom");
+}
+
 /// The `world:` section; motion and actual robot are sections of their own.
 template <class Archive>
 void Describe(Archive& a, sim::WorldConfig& w) {
@@ -51,8 +81,9 @@ void Describe(Archive& a, sim::WorldConfig& w) {
   a.Field("gravity_m_s2", w.gravity_m_s2, "Gravity, downwards", Within(sim::WorldConfig::kGravity));
   a.Field("settle_s", w.settle_s, "Time in which the robot comes to rest before t = 0",
           Within(sim::WorldConfig::kSettle));
-  a.Field("terrain", w.terrain, "The ground");
+  a.Field("terrain", w.terrain, "The ground, or the form of the seabed");
   a.Field("patches", w.patches, "Rectangles with another friction; later ones win");
+  a.Field("water", w.water, "The sea, of an underwater vehicle; its surface is z = 0");
 }
 
 template <class Archive>
@@ -85,6 +116,42 @@ void Describe(Archive& a, sim::MotionConfig& m) {
   }
 }
 
+/// Of an underwater vehicle.
+template <class Archive>
+void Describe(Archive& a, sim::MissionConfig& m) {
+  using Kind = sim::MissionKind;
+  using Mission = sim::MissionConfig;
+  a.Kind("kind", m.kind, Choices<Kind>(), "What the vehicle is asked to do");
+  a.Field("start_s", m.start_s, "It holds its place until then", Within(Mission::kTime));
+  a.Field("start_depth_m", m.start_depth_m, "How deep it starts");
+  a.Field("depth_m", m.depth_m, "Where it goes down to first, under x = y = 0");
+  a.Field("speed_m_s", m.speed_m_s, "Over ground", Within(Mission::kSpeed));
+  if (m.kind == Kind::kDive) {
+    a.Field("hold_s", m.hold_s, "Time at depth", Within(Mission::kTime));
+  }
+  if (m.kind == Kind::kSquare) {
+    a.Field("side_m", m.side_m, "Side of the square", Within(Mission::kLength));
+    a.Field("laps", m.laps, "Laps, then it stops", Within(Mission::kLaps));
+  }
+  if (m.kind == Kind::kLawnmower) {
+    a.Field("length_m", m.length_m, "Of a track, along x", Within(Mission::kLength));
+    a.Field("spacing_m", m.spacing_m, "From track to track, along y", Within(Mission::kLength));
+    a.Field("tracks", m.tracks, "How many, then it stops", Within(Mission::kTracks));
+  }
+  if (m.kind == Kind::kHelix) {
+    a.Field("radius_m", m.radius_m, "Of a circle", Within(Mission::kLength));
+    a.Field("turns", m.turns, "Circles, then it stops", Within(Mission::kLaps));
+    a.Field("end_depth_m", m.end_depth_m, "Depth of its last point");
+  }
+  if (m.kind == Kind::kSquare || m.kind == Kind::kLawnmower || m.kind == Kind::kHelix) {
+    a.Field("clockwise", m.clockwise, "To the right, seen from above");
+  }
+  if (m.kind == Kind::kWaypoints) {
+    a.Field("waypoints_m", m.waypoints_m, "Points [x, y, depth], stopping at the last",
+            Between(-1e4, 1e4), Need::kHere);
+  }
+}
+
 template <class Archive>
 void Describe(Archive& a, sim::ActualConfig& c) {
   a.Field("wheel_radius_scale", c.wheel_radius_scale, "Left and right wheels, factor on the radius",
@@ -97,40 +164,6 @@ void Describe(Archive& a, sim::ActualConfig& c) {
   a.Field("imu_offset_m", c.imu_offset_m, "Shift of every IMU's origin, body axes", Between(-1, 1));
   a.Field("imu_rotation_deg", c.imu_rotation_deg,
           "Rotation vector by which every IMU is turned, body axes", Between(-180, 180));
-}
-
-template <class Archive>
-void Describe(Archive& a, sim::SkidSteerConfig& d) {
-  a.Field("left_joints", d.left_joints, "URDF joints of the left wheels, front to rear");
-  a.Field("right_joints", d.right_joints, "URDF joints of the right wheels, front to rear");
-  a.Field("wheel_radius_m", d.wheel_radius_m, "Undeformed radius of the tyre", AboveUpTo(0, 5));
-  a.Field("wheel_armature_kg_m2", d.wheel_armature_kg_m2, "Reflected inertia of motor and gear",
-          Between(0, 100));
-  a.Field("wheel_damping_n_m_s", d.wheel_damping_n_m_s, "Viscous friction of a wheel's axle",
-          Between(0, 100));
-  a.Field("torque_limit_n_m", d.torque_limit_n_m, "Most that the motors give at each wheel",
-          AboveUpTo(0, 1e4));
-  a.Field("speed_kp", d.speed_kp, "Speed loop, N m per rad/s", Between(0, 1e4));
-  a.Field("speed_ki", d.speed_ki, "Speed loop, N m per rad", Between(0, 1e5));
-  a.Field("belt_stiffness_n_m_rad", d.belt_stiffness_n_m_rad,
-          "The belt that makes the wheels of a side turn together", Between(0, 1e6));
-  a.Field("belt_damping_n_m_s", d.belt_damping_n_m_s, "Likewise", Between(0, 1e5));
-  a.Field("max_acceleration_m_s2", d.max_acceleration_m_s2, "Ramp of the commanded speed",
-          AboveUpTo(0, 100));
-  a.Field("max_yaw_acceleration_rad_s2", d.max_yaw_acceleration_rad_s2,
-          "Ramp of the commanded turn rate", AboveUpTo(0, 100));
-  a.Field("command_track_m", d.command_track_m, "Track that turns (v, turn rate) into wheel speeds",
-          AboveUpTo(0, 10));
-  a.Field("bristle_stiffness_n_m", d.bristle_stiffness_n_m, "Tyre: stiffness along the ground",
-          AboveUpTo(0, 1e8));
-  a.Field("bristle_damping_n_s_m", d.bristle_damping_n_s_m, "Tyre: damping along the ground",
-          Between(0, 1e6));
-  a.Field("relaxation_length_m", d.relaxation_length_m, "Tyre: relaxation length",
-          AboveUpTo(0, 10));
-  a.Field("normal_stiffness_n_m", d.normal_stiffness_n_m, "Tyre: stiffness across the ground",
-          AboveUpTo(0, 1e8));
-  a.Field("normal_damping_n_s_m", d.normal_damping_n_s_m, "Tyre: damping across the ground",
-          Between(0, 1e6));
 }
 
 }  // namespace reckon::harness

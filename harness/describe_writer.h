@@ -15,6 +15,7 @@ namespace reckon::harness {
 class MapWriter {
  public:
   static constexpr bool kWrites = true;
+  static constexpr bool kListsAll = false;
 
   MapWriter() { node_.type = YamlNode::Type::kMap; }
 

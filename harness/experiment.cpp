@@ -51,8 +51,7 @@ Experiment::Experiment(const Scenario& scenario, const Robot& robot,
       recorder_(recorder),
       stop_(stop),
       world_(robot.simulated, scenario.world, scenario.seed),
-      sensors_(robot.sensors, scenario.faults, scenario.seed, scenario.world.physics_step_s,
-               scenario.world.gravity_m_s2),
+      sensors_(robot.sensors, scenario.faults, scenario.seed, world_.environment()),
       truth_(HistorySize(scenario)),
       bench_(scenario, robot.nominal, recorder, stop) {
   bench_.set_truth(&truth_);

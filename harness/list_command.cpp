@@ -56,6 +56,9 @@ Section Grades() {
     entry.blank = sim::BlankFields(grade);
     section.entries.push_back(entry);
   }
+  for (const auto& grade : DvlGrades()) {
+    section.entries.push_back({grade.name, "a Doppler log: " + grade.doc, {}});
+  }
   return section;
 }
 
@@ -92,10 +95,11 @@ Section Scenarios() {
 std::vector<Section> Sections() {
   return {Robots(),
           Words("estimators", std::span(EstimatorTypes())),
-          Words("sensors", Choices<models::SensorKind>()),
+          Words("sensors", Choices<sim::SensorType>()),
           Grades(),
           Words("terrains", Choices<sim::TerrainKind>()),
           Words("motions", Choices<sim::PathKind>()),
+          Words("missions", Choices<sim::MissionKind>()),
           Words("faults", Choices<sim::FaultKind>()),
           MetricSection(),
           Scenarios()};

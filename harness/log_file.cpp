@@ -245,11 +245,23 @@ models::Suite SuiteOf(const LoadedLog& log) {
   return suite;
 }
 
+namespace {
+
+/// The first type of a simulated sensor that sends `kind`.
+sim::SensorType TypeThatSends(SensorKind kind) {
+  for (const auto& choice : Choices<sim::SensorType>()) {
+    if (sim::KindOf(DefaultErrors(choice.value)) == kind) return choice.value;
+  }
+  return sim::SensorType::kImu;
+}
+
+}  // namespace
+
 std::map<std::string, SensorConfig> SensorsOf(const LogFile& log) {
   std::map<std::string, SensorConfig> sensors;
   for (const auto& [name, sensor] : log.sensors) {
     if (sensor.kind == SensorKind::kContacts) continue;
-    sensors[name].errors = DefaultErrors(sensor.kind);
+    sensors[name].errors = DefaultErrors(TypeThatSends(sensor.kind));
   }
   return sensors;
 }

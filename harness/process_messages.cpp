@@ -117,6 +117,9 @@ void AddSample(Json& message, const models::BodyVelocitySample& velocity) {
   message["message"] = "body_velocity";
   message["v_WS_S_m_s"] = Numbers(velocity.v_WS_S);
   message["covariance_m2_s2"] = Numbers(velocity.covariance);
+  message["valid"] = velocity.valid;
+  message["over_ground"] = velocity.over_ground;
+  message["figure_of_merit_m_s"] = velocity.figure_of_merit_m_s;
 }
 
 void AddSample(Json& message, const models::DepthSample& depth) {

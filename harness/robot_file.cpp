@@ -18,7 +18,7 @@ void Describe(Archive& a, RobotFile& r) {
   a.Field("description", r.description, "A sentence for people");
   a.Field("urdf", r.urdf, "The URDF, relative to this folder", {}, Need::kHere);
   a.Field("base_link", r.base_link, "The link that is the body frame");
-  a.Field("drive", r.drive, "Motors and tyres");
+  a.Field("drive", r.drive, "What moves it");
   a.Field("sensors", r.sensors, "The robot's own sensors");
   a.Field("nominal", r.nominal, "The robot as estimators know it");
 }
@@ -41,16 +41,23 @@ models::TimeNs PeriodOf(const SensorConfig& sensor) {
   return std::llround(1e9 / std::visit(rate, sensor.errors));
 }
 
+/// The wheels that turn, left then right, front to rear; none for a robot without.
+std::vector<std::string> JointsOf(const sim::DriveConfig& drive) {
+  const auto* wheels = std::get_if<sim::SkidSteerConfig>(&drive);
+  if (wheels == nullptr) return {};
+  std::vector<std::string> joints = wheels->left_joints;
+  joints.insert(joints.end(), wheels->right_joints.begin(), wheels->right_joints.end());
+  return joints;
+}
+
 models::WheelDrive WheelsOf(const Scenario& scenario) {
   const NominalWheels& nominal = scenario.nominal.wheels;
   models::WheelDrive wheels;
   wheels.encoders = nominal.encoders;
   int entry = 0;
-  for (std::size_t i = 0; i < scenario.drive.left_joints.size(); ++i)
-    wheels.left.push_back(entry++);
-  for (std::size_t i = 0; i < scenario.drive.right_joints.size(); ++i) {
-    wheels.right.push_back(entry++);
-  }
+  const auto& drive = std::get<sim::SkidSteerConfig>(scenario.drive);
+  for (std::size_t i = 0; i < drive.left_joints.size(); ++i) wheels.left.push_back(entry++);
+  for (std::size_t i = 0; i < drive.right_joints.size(); ++i) wheels.right.push_back(entry++);
   wheels.rolling_radius_m = nominal.rolling_radius_m;
   wheels.effective_track_m = nominal.effective_track_m;
   wheels.X_BS.p = Eigen::Vector3d(nominal.origin_m[0], nominal.origin_m[1], nominal.origin_m[2]);
@@ -84,14 +91,13 @@ LoadedRobotFile LoadRobotFile(const std::string& name, const Location& where) {
 Robot MakeRobot(const Scenario& scenario, const models::UrdfRobot& urdf) {
   Robot robot;
   robot.simulated.name = scenario.robot;
-  robot.simulated.skid_steer = scenario.drive;
-  robot.joints = scenario.drive.left_joints;
-  robot.joints.insert(robot.joints.end(), scenario.drive.right_joints.begin(),
-                      scenario.drive.right_joints.end());
+  robot.simulated.drive = scenario.drive;
+  robot.joints = JointsOf(scenario.drive);
   for (const auto& [name, sensor] : scenario.sensors) {
     const models::Pose X_BS = urdf.LinkPose(sensor.frame);
     const auto id = static_cast<models::SensorId>(robot.sensors.size());
-    robot.nominal.sensors.push_back({name, KindOf(sensor.errors), X_BS, PeriodOf(sensor)});
+    robot.nominal.sensors.push_back(
+        {name, sim::KindOf(sensor.errors), X_BS, PeriodOf(sensor)});
     const bool encoders = robot.nominal.sensors.back().kind == models::SensorKind::kEncoders;
     robot.channels.push_back(encoders ? robot.joints : std::vector<std::string>());
     robot.sensors.push_back(

@@ -20,7 +20,7 @@ struct RobotFile {
   std::string description;
   std::string urdf;  ///< relative to the robot's folder
   std::string base_link = "base_link";
-  sim::SkidSteerConfig drive;
+  sim::DriveConfig drive;
   std::map<std::string, SensorConfig> sensors;
   NominalConfig nominal;
 };

@@ -110,8 +110,8 @@ struct Scenario {
   std::string robot = "husky";
   double duration_s = 60.0;
   std::uint64_t seed = 1;
-  sim::WorldConfig world;      ///< `world:`, `motion:` and `actual:`
-  sim::SkidSteerConfig drive;  ///< of the simulated robot
+  sim::WorldConfig world;  ///< `world:`, `motion:`, `mission:` and `actual:`
+  sim::DriveConfig drive;  ///< of the simulated robot
   NominalConfig nominal;
   std::map<std::string, SensorConfig> sensors;
   std::vector<sim::FaultConfig> faults;

@@ -7,15 +7,15 @@
 #include <set>
 
 #include "reckon/harness/describe_choices.h"
-#include "reckon/harness/nearest.h"
+#include "reckon/harness/drive_rules.h"
+#include "reckon/harness/rule_book.h"
 #include "reckon/harness/scenario_metrics.h"
 #include "reckon/harness/yaml_values.h"
+#include "reckon/sim/dvl_beams.h"
 #include "reckon/sim/imu.h"
 
 namespace reckon::harness {
 namespace {
-
-using Names = std::vector<std::string>;
 
 template <class T>
 Names KeysOf(const std::map<std::string, T>& map) {
@@ -24,25 +24,19 @@ Names KeysOf(const std::map<std::string, T>& map) {
   return names;
 }
 
-bool Holds(const Names& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 /// The rules, with what all of them need.
-class Rules {
+class Rules : private RuleBook {
  public:
   Rules(const Scenario& scenario, const YamlNode& root, Problems& problems)
-      : s_(scenario), root_(root), problems_(problems), sensors_(KeysOf(scenario.sensors)) {}
+      : RuleBook(root, problems), s_(scenario), sensors_(KeysOf(scenario.sensors)) {}
 
   void Run(const models::UrdfRobot& urdf, const std::string& base_link) const {
     // Nothing divides a step that stamps can't hold.
     const bool step_is_good = IsWhole(s_.world.physics_step_s * 1e9);
     Require(step_is_good, "/world/physics_step_s", "a whole number of nanoseconds");
     if (!step_is_good) return;
-    CheckWorld();
-    CheckMotion();
+    CheckDriven(s_, urdf, base_link, *this);
     CheckSensors(urdf);
-    CheckDrive(urdf, base_link);
     CheckFaults();
     for (const auto& [name, estimator] : s_.estimators) CheckEstimator(name, estimator);
     CheckRate("/record/truth_rate_hz", s_.record.truth_rate_hz);
@@ -60,31 +54,6 @@ class Rules {
   }
 
  private:
-  /// Where the value at `path` was written, or else what holds it.
-  Location Where(std::string path) const {
-    while (!path.empty()) {
-      if (const YamlNode* node = root_.At(path)) return node->at;
-      path.resize(path.rfind('/'));
-    }
-    return root_.at;
-  }
-
-  void Complain(const std::string& path, const std::string& what) const {
-    problems_.Add(Where(path), "'" + path + "': " + what);
-  }
-
-  void Require(bool holds, const std::string& path, const std::string& expected) const {
-    if (holds) return;
-    const YamlNode* node = root_.At(path);
-    Complain(path, "expected " + expected + (node != nullptr ? ", found " + Found(*node) : ""));
-  }
-
-  void RequireOneOf(const std::string& name, const Names& names, const std::string& path,
-                    const std::string& what) const {
-    if (Holds(names, name)) return;
-    Complain(path, "there is no " + what + " '" + Shown(name) + "'" + DidYouMean(name, names));
-  }
-
   static bool IsWhole(double number) {
     constexpr double kRoundOff = 1e-9;
     return std::abs(number - std::round(number)) <= kRoundOff * std::abs(number);
@@ -104,45 +73,6 @@ class Rules {
     return false;
   }
 
-  void CheckWorld() const {
-    const sim::TerrainConfig& t = s_.world.terrain;
-    Require(t.kind != sim::TerrainKind::kRough || t.shortest_wave_m <= t.longest_wave_m,
-            "/world/terrain/longest_wave_m",
-            "at least shortest_wave_m, " + NumberText(t.shortest_wave_m));
-    Require(t.kind != sim::TerrainKind::kKerbs || t.kerb_spacing_m >= t.LeastKerbSpacing(),
-            "/world/terrain/kerb_spacing_m",
-            "at least " + NumberText(t.LeastKerbSpacing()) +
-                ", the kerb's width and room for the robot");
-    for (std::size_t i = 0; i < s_.world.patches.size(); ++i) {
-      const auto& box = s_.world.patches[i].box_m;
-      Require(box[2] > 0 && box[3] > 0, "/world/patches/" + std::to_string(i) + "/box_m",
-              "[centre x, centre y, size x, size y] with sizes above 0");
-    }
-  }
-
-  void CheckMotion() const {
-    const sim::MotionConfig& m = s_.world.motion;
-    if (m.path == sim::PathKind::kWaypoints) {
-      const auto elsewhere = [](const auto& point) {
-        return std::hypot(point[0], point[1]) > 1e-6;
-      };
-      const auto& points = m.waypoints_m;
-      Require(std::any_of(points.begin(), points.end(), elsewhere), "/motion/waypoints_m",
-              "at least one point [x, y] other than the origin");
-    }
-    if (m.path != sim::PathKind::kVelocityProfile) return;
-    Require(!m.profile.empty(), "/motion/profile", "at least one row [t_s, v_m_s, yaw_rate_rad_s]");
-    double last = -1.0;
-    for (std::size_t i = 0; i < m.profile.size(); ++i) {
-      const auto& row = m.profile[i];
-      const std::string path = "/motion/profile/" + std::to_string(i);
-      Require(row[0] > last && row[0] >= 0.0, path + "/0", "times of at least 0 that rise");
-      Require(std::abs(row[1]) <= 20.0, path + "/1", "a speed from -20 to 20");
-      Require(std::abs(row[2]) <= 20.0, path + "/2", "a turn rate from -20 to 20");
-      last = row[0];
-    }
-  }
-
   void CheckSensors(const models::UrdfRobot& urdf) const {
     Names links;
     for (const auto& link : urdf.links()) links.push_back(link.name);
@@ -151,6 +81,10 @@ class Rules {
       RequireOneOf(sensor.frame, links, path + "/frame", "link in the URDF called");
       const auto rate = [](const auto& errors) { return errors.timing.rate_hz; };
       const double rate_hz = std::visit(rate, sensor.errors);
+      if (const auto* dvl = std::get_if<sim::DvlConfig>(&sensor.errors)) {
+        CheckDvl(path, *dvl);
+        continue;  // it pings when it can
+      }
       const bool divides = CheckRate(path + "/rate_hz", rate_hz);
       if (const auto* imu = std::get_if<sim::ImuConfig>(&sensor.errors)) {
         const double most = sim::LargestBandwidthHz(StepNs());
@@ -163,6 +97,22 @@ class Rules {
       }
     }
     CheckWheels();
+  }
+
+  void CheckDvl(const std::string& path, const sim::DvlConfig& dvl) const {
+    if (!s_.world.water) Complain(path + "/type", "a Doppler log needs a sea around it");
+    Require(dvl.altitude_min_m < dvl.altitude_max_m, path + "/altitude_max_m",
+            "more than altitude_min_m");
+    double last = 0.0;
+    for (const auto& [altitude, rate] : dvl.rate_by_altitude) {
+      Require(altitude > last, path + "/rate_by_altitude", "altitudes that rise");
+      last = altitude;
+    }
+    try {
+      const sim::DvlBeams check("beams", dvl.beam_angle_deg, dvl.azimuths_deg);
+    } catch (const std::invalid_argument& error) {
+      Complain(path, error.what());
+    }
   }
 
   void CheckWindow(const std::string& path, double window_s, double period_s) const {
@@ -182,31 +132,6 @@ class Rules {
             "a number above 0");
     Require(s_.nominal.wheels.effective_track_m > 0, "/nominal/wheels/effective_track_m",
             "a number above 0");
-  }
-
-  void CheckDrive(const models::UrdfRobot& urdf, const std::string& base_link) const {
-    Names joints, wheels;
-    for (const auto& joint : urdf.joints()) {
-      joints.push_back(joint.name);
-      if (sim::IsWheelJoint(urdf, joint, base_link)) wheels.push_back(joint.name);
-    }
-    std::set<std::string> seen;
-    for (const auto& [key, side] : {std::pair{"left_joints", &s_.drive.left_joints},
-                                    std::pair{"right_joints", &s_.drive.right_joints}}) {
-      const std::string path = std::string("/drive/") + key;
-      for (std::size_t i = 0; i < side->size(); ++i) {
-        const std::string place = path + "/" + std::to_string(i);
-        const std::string& joint = (*side)[i];
-        RequireOneOf(joint, joints, place, "joint in the URDF called");
-        Require(!Holds(joints, joint) || Holds(wheels, joint), place,
-                fmt::format("a continuous joint of {} ({})", base_link, fmt::join(wheels, ", ")));
-        Require(seen.insert(joint).second, place, "each joint once");
-      }
-      Require(!side->empty(), path, "at least one joint");
-    }
-    if (s_.drive.left_joints.size() + s_.drive.right_joints.size() > models::kMaxEncoders) {
-      Complain("/drive", "more than " + std::to_string(models::kMaxEncoders) + " wheels");
-    }
   }
 
   void CheckFaults() const {
@@ -350,8 +275,6 @@ class Rules {
   }
 
   const Scenario& s_;
-  const YamlNode& root_;
-  Problems& problems_;
   Names sensors_;
 };
 

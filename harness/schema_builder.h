@@ -19,6 +19,7 @@ Json ToJson(const YamlNode& node);
 class SchemaBuilder {
  public:
   static constexpr bool kWrites = false;
+  static constexpr bool kListsAll = true;
 
   explicit SchemaBuilder(std::size_t forced_kind) : forced_kind_(forced_kind) {}
 

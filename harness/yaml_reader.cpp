@@ -109,6 +109,8 @@ void Complete(const YamlNode& root, const fs::path& folder, Scenario& scenario) 
     const double steps = std::max(1.0, std::round(rate / scenario.record.truth_rate_hz));
     scenario.record.truth_rate_hz = rate / steps;
   }
+  const bool swims = sim::KindOf(scenario.drive) == sim::DriveKind::kUnderwater;
+  if (swims && !scenario.world.water) scenario.world.water.emplace();
   for (auto& [name, estimator] : scenario.estimators) {
     if (estimator.noise_source == NoiseSource::kMatched) estimator.noise = MatchedNoise(scenario);
     if (estimator.type == "process") {

@@ -15,6 +15,7 @@ struct MotionWindow {
   models::Pose X_WB_previous, X_WB, X_WB_next;
   models::EncoderVector joint_angle_rad;  ///< accumulated, in the order of the world's encoders
   models::EncoderVector joint_rate_rad_s;
+  Eigen::Vector3d water_velocity_m_s = Eigen::Vector3d::Zero();  ///< around the robot, in W
 
   /// Velocity in W of the point fixed at `p_BS` in the body: (p_S,k+1 − p_S,k−1) / 2h.
   Eigen::Vector3d Velocity(const Eigen::Vector3d& p_BS) const {

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <string>
+#include <variant>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include "reckon/models/urdf_robot.h"
+#include "reckon/sim/underwater_config.h"
 
 namespace reckon::sim {
 
@@ -31,12 +31,22 @@ struct SkidSteerConfig {
   double normal_damping_n_s_m = 500.0;
 };
 
+/// What moves a robot. The alternatives are in the order of `DriveKind`.
+using DriveConfig = std::variant<SkidSteerConfig, UnderwaterConfig>;
+enum class DriveKind { kSkidSteer, kUnderwater };
+
+inline DriveKind KindOf(const DriveConfig& drive) { return static_cast<DriveKind>(drive.index()); }
+
 /// The robot that is simulated: its URDF and its drive.
 struct RobotConfig {
   std::string name;  ///< a folder in models/
   std::string urdf_path;
   std::string base_link = "base_link";
-  SkidSteerConfig skid_steer;
+  DriveConfig drive;
+
+  /// For a robot that has this drive.
+  const SkidSteerConfig& skid_steer() const { return std::get<SkidSteerConfig>(drive); }
+  SkidSteerConfig& skid_steer() { return std::get<SkidSteerConfig>(drive); }
 };
 
 /// Whether a drive can turn this joint of `urdf`: a continuous one whose parent is `base_link`.

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <array>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "reckon/models/suite.h"
 #include "reckon/sim/range.h"
 
 namespace reckon::sim {
@@ -70,6 +72,10 @@ struct DepthConfig {
   double noise_m = 0.0;       ///< σ per sample, white, before quantisation
   double offset_m = 0.0;      ///< σ of the constant offset drawn once a run
   double resolution_m = 0.0;  ///< per least significant bit; 0: not quantised
+  /// What it takes the water's density to be; 0: what it is.
+  double assumed_density_kg_m3 = 0.0;
+  /// Random walk of the depth at which it reads zero, as weather and tide change the surface.
+  double surface_drift_m_per_s_sqrt_hz = 0.0;
 };
 
 /// An absolute pose from outside: satellites, motion capture, a map.
@@ -80,9 +86,45 @@ struct PoseConfig {
   bool orientation = true;  ///< false: it knows its position alone
 };
 
-/// The sensors that can be simulated, in the order of `models::SensorKind`.
+/// A Doppler velocity log at the level of its beams, `vehicles.md` B. `grade` has already filled
+/// what it names when this is read; what the scenario writes beside it wins.
+struct DvlConfig {
+  Timing timing{.rate_hz = 5.0};  ///< latency: from the last echo to the arrival
+  std::string grade = "ideal";
+  double beam_angle_deg = 30.0;  ///< from the vertical
+  std::vector<double> azimuths_deg{45, 135, 225, 315};
+  double noise_m_per_s = 0.001;         ///< σ of one beam's velocity
+  double water_noise_m_per_s = 0.0;     ///< the same over water
+  double offset_m_per_s = 0.0;          ///< σ of each beam's constant offset drawn once a run
+  double scale = 0.0;                   ///< σ of the scale error drawn once a run
+  double altitude_min_m = 0.1;          ///< of what a beam meets: range times cos θ
+  double altitude_max_m = 100.0;
+  double max_incidence_deg = 60.0;      ///< a beam that meets the ground flatter gets no echo
+  double max_speed_m_s = 100.0;         ///< faster than this no beam answers
+  double dropout = 0.0;                 ///< probability that a beam gets no echo
+  int min_beams = 3;                    ///< of those that a velocity needs
+  std::vector<std::array<double, 2>> rate_by_altitude = {};  ///< rows [up to this altitude m, Hz]
+  double assumed_sound_speed_m_s = 0.0;  ///< 0: what it is
+  bool water_track = false;  ///< without the ground it reports its velocity relative to the water
+  double water_layer_m = 5.0;  ///< how far under it that water is
+
+  static constexpr Range kBeamAngle{1, 89}, kIncidence = AboveUpTo(0, 90);
+  static constexpr Range kAltitude{0, 10000}, kMinBeams{3, 8};
+};
+
+/// The sensors that can be simulated. Several types may send the same kind of sample.
+enum class SensorType { kImu, kEncoders, kBodyVelocity, kDepth, kPose, kDvl };
+
+/// What a sensor of each type gets wrong, in the order of `SensorType`.
 using SensorErrors =
-    std::variant<ImuConfig, EncoderConfig, BodyVelocityConfig, DepthConfig, PoseConfig>;
+    std::variant<ImuConfig, EncoderConfig, BodyVelocityConfig, DepthConfig, PoseConfig, DvlConfig>;
+
+inline SensorType TypeOf(const SensorErrors& errors) {
+  return static_cast<SensorType>(errors.index());
+}
+
+/// The kind of sample that a sensor with these errors sends.
+models::SensorKind KindOf(const SensorErrors& errors);
 
 enum class FaultKind {
   kDropout,       ///< nothing is sent

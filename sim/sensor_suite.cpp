@@ -1,14 +1,13 @@
 #include "reckon/sim/sensor_suite.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 #include <variant>
 
 #include "reckon/sim/body_velocity_sensor.h"
 #include "reckon/sim/depth_sensor.h"
+#include "reckon/sim/dvl.h"
 #include "reckon/sim/encoders.h"
 #include "reckon/sim/imu.h"
 #include "reckon/sim/pose_sensor.h"
@@ -16,40 +15,33 @@
 namespace reckon::sim {
 namespace {
 
-models::TimeNs StepNs(double physics_step_s) {
-  const double ns = physics_step_s * 1e9;
-  if (!(ns >= 1.0) || ns > 1e9 || std::abs(ns - std::round(ns)) > 1e-5) {
-    std::ostringstream text;
-    text << "the physics step is " << physics_step_s
-         << " s, expected a whole number of nanoseconds, at most 1 s";
-    throw std::invalid_argument(text.str());
-  }
-  return std::llround(ns);
-}
-
 /// Builds the sensor that a description stands for.
 struct Maker {
   const SensorSpec& spec;
   std::uint64_t seed;
-  models::TimeNs step_ns;
-  double gravity_m_s2;
+  const Environment& environment;
 
   std::unique_ptr<Sensor> operator()(const ImuConfig& config) const {
-    return std::make_unique<Imu>(spec.name, spec.id, spec.X_BS, config, seed, step_ns,
-                                 gravity_m_s2);
+    return std::make_unique<Imu>(spec.name, spec.id, spec.X_BS, config, seed,
+                                 environment.step_ns, environment.gravity_m_s2);
   }
   std::unique_ptr<Sensor> operator()(const EncoderConfig& config) const {
-    return std::make_unique<Encoders>(spec.name, spec.id, config, seed, step_ns);
+    return std::make_unique<Encoders>(spec.name, spec.id, config, seed, environment.step_ns);
   }
   std::unique_ptr<Sensor> operator()(const BodyVelocityConfig& config) const {
     return std::make_unique<BodyVelocitySensor>(spec.name, spec.id, spec.X_BS, config, seed,
-                                                step_ns);
+                                                environment.step_ns);
   }
   std::unique_ptr<Sensor> operator()(const DepthConfig& config) const {
-    return std::make_unique<DepthSensor>(spec.name, spec.id, spec.X_BS, config, seed, step_ns);
+    return std::make_unique<DepthSensor>(spec.name, spec.id, spec.X_BS, config, seed,
+                                         environment);
   }
   std::unique_ptr<Sensor> operator()(const PoseConfig& config) const {
-    return std::make_unique<PoseSensor>(spec.name, spec.id, spec.X_BS, config, seed, step_ns);
+    return std::make_unique<PoseSensor>(spec.name, spec.id, spec.X_BS, config, seed,
+                                        environment.step_ns);
+  }
+  std::unique_ptr<Sensor> operator()(const DvlConfig& config) const {
+    return std::make_unique<Dvl>(spec.name, spec.id, spec.X_BS, config, seed, environment);
   }
 };
 
@@ -80,12 +72,14 @@ void CheckChannels(std::span<const SensorSpec> sensors, std::span<const FaultCon
 }  // namespace
 
 SensorSuite::SensorSuite(std::span<const SensorSpec> sensors, std::span<const FaultConfig> faults,
-                         std::uint64_t seed, double physics_step_s, double gravity_m_s2) {
+                         std::uint64_t seed, const Environment& environment) {
   CheckNames(sensors, faults);
   CheckChannels(sensors, faults);
-  const models::TimeNs step_ns = StepNs(physics_step_s);
+  if (environment.step_ns < 1 || environment.step_ns > 1'000'000'000) {
+    throw std::invalid_argument("the physics step must be 1 ns to 1 s long");
+  }
   for (const SensorSpec& spec : sensors) {
-    auto sensor = std::visit(Maker{spec, seed, step_ns, gravity_m_s2}, spec.errors);
+    auto sensor = std::visit(Maker{spec, seed, environment}, spec.errors);
     if (const auto* imu = dynamic_cast<const Imu*>(sensor.get()); imu != nullptr && !imu_) {
       imu_ = imu;
       R_BS_imu_ = spec.X_BS.R;

@@ -8,6 +8,7 @@
 
 #include "reckon/models/measurement.h"
 #include "reckon/models/pose.h"
+#include "reckon/sim/environment.h"
 #include "reckon/sim/faults.h"
 #include "reckon/sim/sensor.h"
 #include "reckon/sim/sensor_config.h"
@@ -31,13 +32,12 @@ struct SensorSpec {
 /// depends on nothing but its own configuration and the motion.
 class SensorSuite {
  public:
-  /// `physics_step_s` is the step of the motion windows (a whole number of nanoseconds),
-  /// `gravity_m_s2` the size of gravity.
+  /// `environment` is that of the motion windows; what it points to must outlive this.
   /// Throws std::invalid_argument with a sentence that names the sensor, the field, what was found
   /// and what is allowed; also for two sensors of one name and a fault on a sensor that isn't
   /// there.
   SensorSuite(std::span<const SensorSpec> sensors, std::span<const FaultConfig> faults,
-              std::uint64_t seed, double physics_step_s, double gravity_m_s2);
+              std::uint64_t seed, const Environment& environment);
   ~SensorSuite();
   SensorSuite(SensorSuite&&) noexcept;
   SensorSuite& operator=(SensorSuite&&) noexcept;

@@ -16,7 +16,7 @@ using ConstVec3 = Eigen::Map<const Eigen::Vector3d>;
 }
 
 void CheckNumbers(const RobotConfig& robot, const ActualConfig& actual) {
-  const auto& c = robot.skid_steer;
+  const auto& c = robot.skid_steer();
   const auto require = [&](bool holds, const char* key, const char* what) {
     if (!holds) Refuse(robot.name, std::string(key) + " must be " + what);
   };
@@ -61,7 +61,7 @@ void SkidSteer::Check(const RobotConfig& robot, const ActualConfig& actual,
                       const models::UrdfRobot& urdf) {
   CheckNumbers(robot, actual);
   urdf.LinkIndex(robot.base_link);
-  for (const auto* side : {&robot.skid_steer.left_joints, &robot.skid_steer.right_joints}) {
+  for (const auto* side : {&robot.skid_steer().left_joints, &robot.skid_steer().right_joints}) {
     for (const auto& name : *side) {
       if (!IsWheelJoint(urdf, urdf.joints()[urdf.JointIndex(name)], robot.base_link)) {
         Refuse(robot.name, "wheel '" + name + "' is not a continuous joint of " + robot.base_link);
@@ -72,15 +72,15 @@ void SkidSteer::Check(const RobotConfig& robot, const ActualConfig& actual,
 
 SkidSteer::SkidSteer(const RobotConfig& robot, const WorldConfig& config,
                      const models::UrdfRobot& urdf, const mjModel& model)
-    : drive_(robot.skid_steer),
-      damping_n_s_m_(robot.skid_steer.bristle_damping_n_s_m),
+    : drive_(robot.skid_steer()),
+      damping_n_s_m_(robot.skid_steer().bristle_damping_n_s_m),
       dt_s_(config.physics_step_s),
       kerbs_(config.terrain.kind == TerrainKind::kKerbs),
       base_(model, mj_name2id(&model, mjOBJ_BODY, robot.base_link.c_str())) {
-  for (const auto& joint : robot.skid_steer.left_joints) {
+  for (const auto& joint : robot.skid_steer().left_joints) {
     AddWheel(robot, config, urdf, model, joint, config.actual.wheel_radius_scale[0]);
   }
-  for (const auto& joint : robot.skid_steer.right_joints) {
+  for (const auto& joint : robot.skid_steer().right_joints) {
     AddWheel(robot, config, urdf, model, joint, config.actual.wheel_radius_scale[1]);
   }
   kerb_contacts_.resize(wheels_.size());
@@ -91,7 +91,7 @@ void SkidSteer::AddWheel(const RobotConfig& robot, const WorldConfig& config,
                          const models::UrdfRobot& urdf, const mjModel& model,
                          const std::string& joint_name, double radius_scale) {
   const auto& joint = urdf.joints()[urdf.JointIndex(joint_name)];
-  const auto& c = robot.skid_steer;
+  const auto& c = robot.skid_steer();
   Wheel wheel;
   wheel.p_BW = joint.X_PJ.p;
   wheel.p_BW.y() *= config.actual.track_scale;

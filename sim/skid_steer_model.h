@@ -1,30 +1,13 @@
 #pragma once
 
-#include <memory>
 #include <string>
 
-#include <mujoco/mujoco.h>
-
-#include "reckon/models/urdf_robot.h"
+#include "reckon/sim/mujoco_model.h"
 #include "reckon/sim/robot_config.h"
 #include "reckon/sim/terrain.h"
 #include "reckon/sim/world_config.h"
 
 namespace reckon::sim {
-
-struct MujocoDelete {
-  void operator()(mjSpec* spec) const { mj_deleteSpec(spec); }
-  void operator()(mjModel* model) const { mj_deleteModel(model); }
-  void operator()(mjData* data) const { mj_deleteData(data); }
-};
-using SpecPtr = std::unique_ptr<mjSpec, MujocoDelete>;
-using ModelPtr = std::unique_ptr<mjModel, MujocoDelete>;
-using DataPtr = std::unique_ptr<mjData, MujocoDelete>;
-
-/// Routes MuJoCo's messages away from the terminal and from MUJOCO_LOG.TXT: warnings are counted in
-/// mjData, where the world reads them; an error becomes a WorldFailure instead of ending the
-/// process. The handler belongs to the process; installing it again changes nothing. Thread-safe.
-void InstallMujocoLogHandler();
 
 /// The geom that touches kerbs for the wheel of `joint`.
 std::string WheelContactGeom(const std::string& joint);

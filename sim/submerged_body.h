@@ -21,6 +21,7 @@ class SubmergedBody {
   /// Pose of B in W, and ν = (v, ω) of its origin in its axes, of the positions and velocities of
   /// `data`.
   models::Pose Pose(const mjData& data) const { return joint_.Pose(data); }
+  void Place(const models::Pose& X_WB, mjData& data) const { joint_.Place(X_WB, data); }
   Vector6 Twist(const mjData& data) const;
 
   /// Between mj_step1 and mj_step2: M ← M + T M_A Tᵀ with T = blkdiag(R, I), factored anew, and

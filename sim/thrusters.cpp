@@ -47,6 +47,7 @@ Vector6 Thrusters::Update(const Vector6& wanted, double dt_s) {
     const double asked = std::abs(command_[static_cast<Eigen::Index>(i)]);
     excess = std::max(excess, asked / thrusters_[i].limit_n);
   }
+  saturated_ = excess > 1.0;
   for (std::size_t i = 0; i < thrusters_.size(); ++i) {
     const auto at = static_cast<Eigen::Index>(i);
     const double lag_s = thrusters_[i].lag_s;

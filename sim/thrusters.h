@@ -29,6 +29,9 @@ class Thrusters {
   /// pushes at the end of it. Does not allocate.
   Vector6 Update(const Vector6& wanted, double dt_s);
 
+  /// Whether the last command was scaled down.
+  bool saturated() const { return saturated_; }
+
   /// Of each thruster now [N].
   const Eigen::VectorXd& thrust_n() const { return thrust_; }
 
@@ -37,6 +40,7 @@ class Thrusters {
   Eigen::Matrix<double, 6, Eigen::Dynamic> wrench_of_;  ///< a newton of each
   Eigen::Matrix<double, Eigen::Dynamic, 6> share_;      ///< its pseudo-inverse
   Eigen::VectorXd command_, thrust_;
+  bool saturated_ = false;
 };
 
 }  // namespace reckon::sim

@@ -2,27 +2,19 @@
 
 #include <cmath>
 #include <cstdio>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 
-#include <Eigen/Geometry>
-
-#include "reckon/models/urdf_robot.h"
-#include "reckon/sim/driver.h"
 #include "reckon/sim/rotation_vector.h"
-#include "reckon/sim/skid_steer.h"
-#include "reckon/sim/skid_steer_model.h"
-#include "reckon/sim/terrain.h"
+#include "reckon/sim/skid_steer_vehicle.h"
+#include "reckon/sim/underwater_vehicle.h"
 
 namespace reckon::sim {
 namespace {
 
-constexpr double kMaxTiltDeg = 75.0;
 constexpr double kLongestSettle = 10.0;  // s beyond settle_s
-constexpr double kStillSpeed = 1e-6;     // m/s and rad/s: the robot is at rest,
 constexpr double kSlidAway = 1.0;        // m from the origin: it will not come to rest
-constexpr double kStillTime = 0.1;       // s, when it has been as still for so long
+constexpr double kStillTime = 0.1;       // s that it must have been still for
 
 const WorldConfig& Checked(const WorldConfig& config) {
   RequireIn(WorldConfig::kPhysicsStep, config.physics_step_s, "world", "physics_step_s");
@@ -35,26 +27,15 @@ const WorldConfig& Checked(const WorldConfig& config) {
   return config;
 }
 
-/// Checked before MuJoCo meets it: these messages are the clearer ones.
-models::UrdfRobot ReadUrdf(const RobotConfig& robot, const ActualConfig& actual) {
-  auto urdf = models::UrdfRobot::FromFile(robot.urdf_path);
-  SkidSteer::Check(robot, actual, urdf);
-  return urdf;
-}
-
-DataPtr MakeData(const mjModel& model) {
-  DataPtr data(mj_makeData(&model));
-  if (!data) throw std::bad_alloc();
-  return data;
-}
-
-/// x forward over the ground, so that the yaw is 0, and z along the ground's normal.
-Eigen::Matrix3d StandOn(const Ground& ground) {
-  Eigen::Matrix3d R;
-  R.col(2) = Eigen::Vector3d(-ground.hx, -ground.hy, 1.0).normalized();
-  R.col(0) = Eigen::Vector3d::UnitY().cross(R.col(2)).normalized();
-  R.col(1) = R.col(2).cross(R.col(0));
-  return R;
+std::unique_ptr<Vehicle> MakeVehicle(const RobotConfig& robot, const WorldConfig& config,
+                                     std::uint64_t seed) {
+  switch (KindOf(robot.drive)) {
+    case DriveKind::kSkidSteer:
+      return std::make_unique<SkidSteerVehicle>(robot, config, seed);
+    case DriveKind::kUnderwater:
+      return std::make_unique<UnderwaterVehicle>(robot, config, seed);
+  }
+  throw std::invalid_argument("robot '" + robot.name + "': unknown drive");
 }
 
 }  // namespace
@@ -62,34 +43,38 @@ Eigen::Matrix3d StandOn(const Ground& ground) {
 class World::Impl {
  public:
   Impl(const RobotConfig& robot, const WorldConfig& config, std::uint64_t seed)
-      : config_(Checked(config)),
-        urdf_(ReadUrdf(robot, config.actual)),
-        terrain_(config.terrain, config.patches, seed),
-        driver_(config.motion),
-        model_(BuildSkidSteerModel(robot, config, terrain_)),
-        data_(MakeData(*model_)),
-        steer_(robot, config, urdf_, *model_) {
+      : config_(Checked(config)), vehicle_(MakeVehicle(robot, config_, seed)) {
     motion_.step_ns = std::llround(config.physics_step_s * 1e9);
-    driver_period_steps_ =
-        std::max(1LL, std::llround(1.0 / (Driver::kRateHz * config.physics_step_s)));
-    Place();
+    next_ = vehicle_->Read();
     Settle();
   }
 
   void Advance() {
     if (started_) {
       motion_.t_ns += motion_.step_ns;
-      Step();
+      Step(motion_.t_ns);
     }
     started_ = true;
     motion_.X_WB_previous = previous_.X_WB;
     motion_.X_WB = now_.X_WB;
     motion_.X_WB_next = next_.X_WB;
-    motion_.joint_angle_rad = now_.angle_rad;
-    motion_.joint_rate_rad_s = now_.rate_rad_s;
+    motion_.joint_angle_rad = now_.joint_angle_rad;
+    motion_.joint_rate_rad_s = now_.joint_rate_rad_s;
+    motion_.water_velocity_m_s = now_.water_velocity_m_s;
   }
 
   const MotionWindow& motion() const { return motion_; }
+
+  Environment environment() const {
+    Environment environment;
+    environment.step_ns = motion_.step_ns;
+    environment.gravity_m_s2 = config_.gravity_m_s2;
+    environment.surroundings = vehicle_->surroundings();
+    if (!config_.water) return environment;
+    environment.water_density_kg_m3 = config_.water->density_kg_m3;
+    environment.sound_speed_m_s = config_.water->sound_speed_m_s;
+    return environment;
+  }
 
   ground_truth::Truth TruthNow() const {
     ground_truth::Truth truth;
@@ -98,96 +83,50 @@ class World::Impl {
     truth.v_WB = motion_.Velocity(Eigen::Vector3d::Zero());
     truth.w_WB_B = RotationLog(previous_.X_WB.R.transpose() * next_.X_WB.R) /
                    (2.0 * models::Seconds(motion_.step_ns));
-    truth.wheel_rate_rad_s = now_.rate_rad_s;
-    truth.wheel_slip_m_s = now_.slip_m_s;
-    truth.wheel_load_n = now_.load_n;
+    truth.wheel_rate_rad_s = now_.joint_rate_rad_s;
+    truth.wheel_slip_m_s = now_.wheel_slip_m_s;
+    truth.wheel_load_n = now_.wheel_load_n;
     return truth;
   }
 
  private:
-  struct Instant {
-    models::Pose X_WB;
-    models::EncoderVector angle_rad, rate_rad_s, slip_m_s, load_n;
-  };
-
-  /// On the ground at x = y = 0 with yaw 0, its wheels as deep in the ground as they will rest.
-  void Place() {
-    const Ground ground = terrain_.At(0.0, 0.0);
-    const Eigen::Matrix3d R_WB = StandOn(ground);
-    const double z = ground.h + steer_.RestHeight(*model_) / R_WB(2, 2);
-    steer_.PlaceBase({R_WB, {0.0, 0.0, z}}, *data_);
-    next_ = Read();
-  }
-
   void Settle() {
-    steer_.SetBrake(true);
     const auto steps = [&](double s) { return std::llround(s / config_.physics_step_s); };
     const auto least = steps(config_.settle_s), most = least + steps(kLongestSettle);
     long long still = 0;  // steps in a row: a swing is still for an instant
     for (long long i = 0; i < least || still < steps(kStillTime); ++i) {
-      Step();
-      still = Still() ? still + 1 : 0;
+      Step(-motion_.step_ns);
+      still = vehicle_->IsSettled() ? still + 1 : 0;
       if (i > most || next_.X_WB.p.head<2>().norm() > kSlidAway) {
         throw std::invalid_argument(
             "world: the robot does not come to rest on this terrain (too steep for its friction?)");
       }
     }
-    steer_.SetBrake(false);
-    Step();  // once for the look-ahead, once for the pose before t = 0
-    Step();
-    settled_ = true;
+    vehicle_->Release();
+    Step(-motion_.step_ns);  // once for the look-ahead, once for the pose before t = 0
+    Step(-motion_.step_ns);
   }
 
-  bool Still() const {
-    return Eigen::Map<const Eigen::VectorXd>(data_->qvel, model_->nv).lpNorm<Eigen::Infinity>() <
-           kStillSpeed;
-  }
-
-  /// Moves the three instants on by one physics step.
-  void Step() {
+  /// Moves the three instants on by one physics step; `t_ns` is that of the middle one afterwards.
+  void Step(models::TimeNs t_ns) {
     previous_ = now_;
     now_ = next_;
-    steer_.Apply(settled_ ? Command() : DriveCommand{}, terrain_, *data_);
-    now_.slip_m_s = steer_.slip_m_s();
-    now_.load_n = steer_.load_n();
-    // Equal to mj_step1, forces, mj_step2: the forces follow from positions and velocities alone.
-    mj_step(model_.get(), data_.get());
-    next_ = Read();
+    vehicle_->Step(t_ns, now_);
+    next_ = vehicle_->Read();
     Check();
   }
 
-  const DriveCommand& Command() {
-    if (motion_.t_ns / motion_.step_ns % driver_period_steps_ == 0) {
-      const auto& [R, p] = now_.X_WB;
-      command_ =
-          driver_.Update(models::Seconds(motion_.t_ns), p.head<2>(), std::atan2(R(1, 0), R(0, 0)));
-    }
-    return command_;
-  }
-
-  Instant Read() {
-    steer_.ReadWheels(*data_);
-    return {steer_.BasePose(*data_), steer_.angle_rad(), steer_.rate_rad_s(), steer_.slip_m_s(),
-            steer_.load_n()};
-  }
-
   void Check() const {
+    const mjData& data = vehicle_->data();
     for (int i = 0; i < mjNWARNING; ++i) {
-      if (data_->warning[i].number > 0) {
+      if (data.warning[i].number > 0) {
         Fail(std::string("the physics engine warned: ") +
-             mju_warningText(i, static_cast<std::size_t>(data_->warning[i].lastinfo)));
+             mju_warningText(i, static_cast<std::size_t>(data.warning[i].lastinfo)));
       }
     }
     const auto& [R, p] = next_.X_WB;
     if (!p.allFinite() || !R.allFinite()) Fail("the physics diverged (a pose is not a number)");
-    if (!terrain_.Contains(p.x(), p.y())) {
-      char text[120];
-      std::snprintf(text, sizeof(text), "the robot left the map (|x|, |y| ≤ %g m)",
-                    terrain_.config().half_size_m);
-      Fail(text);
-    }
-    static const double least_upright = std::cos(kMaxTiltDeg * std::numbers::pi / 180.0);
-    if (R(2, 2) < least_upright) Fail("the robot turned over");
+    if (const auto trouble = vehicle_->Trouble(next_)) Fail(*trouble);
   }
 
   [[noreturn]] void Fail(const std::string& what) const {
@@ -199,17 +138,10 @@ class World::Impl {
   }
 
   WorldConfig config_;
-  models::UrdfRobot urdf_;
-  Terrain terrain_;
-  Driver driver_;
-  ModelPtr model_;
-  DataPtr data_;
-  SkidSteer steer_;
+  std::unique_ptr<Vehicle> vehicle_;
   MotionWindow motion_;
-  Instant previous_, now_, next_;
-  DriveCommand command_;
-  long long driver_period_steps_ = 1;
-  bool settled_ = false, started_ = false;
+  VehicleState previous_, now_, next_;
+  bool started_ = false;
 };
 
 World::World(const RobotConfig& robot, const WorldConfig& config, std::uint64_t seed)
@@ -220,6 +152,7 @@ World& World::operator=(World&&) noexcept = default;
 
 void World::Advance() { impl_->Advance(); }
 const MotionWindow& World::motion() const { return impl_->motion(); }
+Environment World::environment() const { return impl_->environment(); }
 ground_truth::Truth World::TruthNow() const { return impl_->TruthNow(); }
 
 std::string World::PhysicsVersion() { return std::string("MuJoCo ") + mj_versionString(); }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "reckon/ground_truth/truth.h"
+#include "reckon/sim/environment.h"
 #include "reckon/sim/motion_window.h"
 #include "reckon/sim/robot_config.h"
 #include "reckon/sim/world_config.h"
@@ -34,6 +35,9 @@ class World {
   void Advance();
 
   const MotionWindow& motion() const;
+
+  /// What sensors may know of it. What it points to lives as long as the world.
+  Environment environment() const;
 
   /// What really happens at `motion().t_ns`, with zero IMU biases (the caller knows the sensors).
   ground_truth::Truth TruthNow() const;

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "reckon/sim/mission.h"
 #include "reckon/sim/range.h"
+#include "reckon/sim/water_config.h"
 
 namespace reckon::sim {
 
@@ -82,7 +85,9 @@ struct WorldConfig {
   double settle_s = 1.0;  ///< the robot comes to rest before t = 0
   TerrainConfig terrain;
   std::vector<PatchConfig> patches;
-  MotionConfig motion;
+  MotionConfig motion;                ///< of a robot on the ground
+  std::optional<WaterConfig> water;   ///< the sea, of which `terrain` is the bottom
+  MissionConfig mission;              ///< of an underwater vehicle
   ActualConfig actual;
 
   static constexpr Range kPhysicsStep{1e-5, 0.005};

@@ -54,8 +54,7 @@ std::vector<Eigen::Vector3d> SlipOf(const Scenario& scenario) {
   const Robot robot = LoadRobot(scenario);
   const models::WheelDrive& drive = *robot.nominal.wheels;
   sim::World world(robot.simulated, scenario.world, scenario.seed);
-  sim::SensorSuite sensors(robot.sensors, {}, scenario.seed, scenario.world.physics_step_s,
-                           scenario.world.gravity_m_s2);
+  sim::SensorSuite sensors(robot.sensors, {}, scenario.seed, world.environment());
   std::vector<models::Measurement> sent;
   std::vector<Eigen::Vector3d> slip;
   while (world.motion().t_ns < 60 * models::kNsPerSecond) {

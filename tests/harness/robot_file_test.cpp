@@ -69,7 +69,7 @@ TEST(RobotFile, WheelsComeLeftThenRight) {
   EXPECT_EQ(robot.nominal.wheels->right, (std::vector<int>{2, 3}));
   EXPECT_EQ(robot.nominal.wheels->X_BS.p, Eigen::Vector3d(0.1, 0, 0));
   EXPECT_EQ(robot.nominal.wheels->encoders, "wheels");
-  EXPECT_EQ(robot.simulated.skid_steer.left_joints.size(), 2U);
+  EXPECT_EQ(robot.simulated.skid_steer().left_joints.size(), 2U);
 }
 
 TEST(RobotFile, WithoutEncodersThereAreNoWheelsToBelieveIn) {
@@ -81,7 +81,7 @@ TEST(RobotFile, WithoutEncodersThereAreNoWheelsToBelieveIn) {
 TEST(RobotFile, HuskysNumbersFitTogether) {
   const Robot robot = Load("robot: husky\n");
   const models::UrdfRobot urdf = models::UrdfRobot::FromFile(robot.simulated.urdf_path);
-  const sim::SkidSteerConfig& drive = robot.simulated.skid_steer;
+  const sim::SkidSteerConfig& drive = robot.simulated.skid_steer();
   // On flat ground the rolling radius is R − δ/3 with the tyre's deflection δ = m g / (4 k_n);
   // rough ground takes up to another percent of the distance. The nominal one lies between.
   const double deflection = urdf.TotalMass() * 9.81 / (4 * drive.normal_stiffness_n_m);

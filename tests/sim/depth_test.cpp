@@ -22,7 +22,7 @@ TEST(Depth, IsHowFarItsOwnOriginLiesBelowZero) {
   const testing_sim::RoughRide ride;
   DepthSensor sensor("depth", 3, X_BS,
                      {.timing = {.rate_hz = 20.0, .latency_s = 0.03, .stamp_error_s = 0.002}}, 1,
-                     kMs);
+                     {});
   const auto out = Watch(sensor, ride, kMs, 1000 * kMs);
   ASSERT_EQ(out.size(), 20U);
   double lever = 0.0;
@@ -45,14 +45,14 @@ TEST(Depth, IsPositiveDownwards) {
   struct Below {
     models::Pose At(double) const { return {Eigen::Matrix3d::Identity(), {5, 6, -7}}; }
   };
-  DepthSensor sensor("depth", 0, {}, {.timing = {.rate_hz = 10.0}}, 1, kMs);
+  DepthSensor sensor("depth", 0, {}, {.timing = {.rate_hz = 10.0}}, 1, {});
   EXPECT_EQ(DepthOf(Watch(sensor, Below{}, kMs, 100 * kMs).at(0)), 7.0);
 }
 
 TEST(Depth, NoiseIsWhiteWithItsSigma) {
   constexpr double kSigma = 0.02;
   DepthSensor sensor("depth", 0, {}, {.timing = {.rate_hz = 100.0}, .noise_m = kSigma}, 1,
-                     10 * kMs);
+                     Environment{.step_ns = 10 * kMs});
   std::vector<double> x;
   for (const Measurement& m : Watch(sensor, testing_sim::Rest{}, 10 * kMs, 500'000 * kMs)) {
     x.push_back(DepthOf(m));
@@ -69,7 +69,7 @@ TEST(Depth, OffsetIsDrawnOnceARun) {
   std::vector<double> offsets;
   for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
     DepthSensor sensor("depth", 0, {}, {.timing = {.rate_hz = 100.0}, .offset_m = kSigma}, seed,
-                       10 * kMs);
+                       Environment{.step_ns = 10 * kMs});
     const auto out = Watch(sensor, testing_sim::Rest{}, 10 * kMs, 30 * kMs);
     ASSERT_EQ(out.size(), 3U);
     EXPECT_EQ(DepthOf(out[0]), DepthOf(out[2]));
@@ -82,14 +82,38 @@ TEST(Depth, OffsetIsDrawnOnceARun) {
 
 TEST(Depth, IsQuantisedToTheNearestStep) {
   const models::Pose X_BS{Eigen::Matrix3d::Identity(), {0, 0, -1.13}};
-  DepthSensor sensor("depth", 0, X_BS, {.timing = {.rate_hz = 10.0}, .resolution_m = 0.25}, 1, kMs);
+  DepthSensor sensor("depth", 0, X_BS, {.timing = {.rate_hz = 10.0}, .resolution_m = 0.25}, 1, {});
   EXPECT_EQ(DepthOf(Watch(sensor, testing_sim::Rest{}, kMs, 100 * kMs).at(0)), 1.25);
+}
+
+TEST(Depth, ReadsTheWeightOfTheWaterItTakesItToBe) {
+  struct Deep {
+    models::Pose At(double) const { return {Eigen::Matrix3d::Identity(), {0, 0, -20}}; }
+  };
+  // Calibrated in fresh water, it takes 20 m of the sea for 1025 / 997 of that.
+  DepthSensor sensor("depth", 0, {},
+                     {.timing = {.rate_hz = 10.0}, .assumed_density_kg_m3 = 997.0}, 1, {});
+  EXPECT_NEAR(DepthOf(Watch(sensor, Deep{}, kMs, 100 * kMs).at(0)), 20.0 * 1025 / 997, 1e-12);
+}
+
+TEST(Depth, ItsSurfaceWalksAtRandom) {
+  constexpr double kDensity = 0.002;
+  std::vector<double> after;
+  for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
+    DepthSensor sensor("depth", 0, {},
+                       {.timing = {.rate_hz = 2.0}, .surface_drift_m_per_s_sqrt_hz = kDensity},
+                       seed, Environment{.step_ns = 500 * kMs});
+    after.push_back(DepthOf(Watch(sensor, testing_sim::Rest{}, 500 * kMs, 9000 * kMs).back()));
+  }
+  // Of 9 s: √9 times the density.
+  EXPECT_NEAR(testing_sim::Variance(after) / std::pow(3 * kDensity, 2), 1.0,
+              testing_sim::VarianceBand(1.0, after.size()));
 }
 
 TEST(Depth, RefusesNegativeErrors) {
   const auto refusal = [](const DepthConfig& config) -> std::string {
     try {
-      DepthSensor("depth", 0, {}, config, 1, kMs);
+      DepthSensor("depth", 0, {}, config, 1, {});
     } catch (const std::invalid_argument& error) {
       return error.what();
     }

@@ -39,7 +39,7 @@ TEST_F(RobotDescription, HasTheHuskysNumbers) {
   const auto front_left = urdf_.LinkPose("front_left_wheel_link").p;
   const auto rear_right = urdf_.LinkPose("rear_right_wheel_link").p;
   EXPECT_NEAR(front_left.x() - rear_right.x(), 0.512, 1e-12);
-  EXPECT_NEAR(front_left.y() - rear_right.y(), Husky().skid_steer.command_track_m, 1e-12);
+  EXPECT_NEAR(front_left.y() - rear_right.y(), Husky().skid_steer().command_track_m, 1e-12);
   const auto X_BS = urdf_.LinkPose("imu_link");
   EXPECT_EQ(X_BS.p, Eigen::Vector3d(0.19, 0, 0.149));
   EXPECT_GT(Eigen::AngleAxisd(X_BS.R).angle(), 3.0);  // it hangs upside down
@@ -51,7 +51,7 @@ TEST_F(RobotDescription, WheelsAreAsLargeAsTheDriveBelieves) {
   std::stringstream text;
   text << file.rdbuf();
   std::stringstream radius;
-  radius << "<cylinder radius=\"" << Husky().skid_steer.wheel_radius_m << "\"";
+  radius << "<cylinder radius=\"" << Husky().skid_steer().wheel_radius_m << "\"";
   int wheels = 0;
   for (auto at = text.str().find(radius.str()); at != std::string::npos;
        at = text.str().find(radius.str(), at + 1)) {

@@ -59,7 +59,7 @@ SensorSpec PoseSpec() {
 std::vector<Measurement> MessagesOf(models::SensorId id, const std::vector<SensorSpec>& sensors,
                                     const std::vector<FaultConfig>& faults = {},
                                     std::uint64_t seed = 1) {
-  SensorSuite suite(sensors, faults, seed, 0.001, 9.81);
+  SensorSuite suite(sensors, faults, seed, Environment{});
   std::vector<Measurement> all, out;
   for (models::TimeNs t = 0; t <= 2000 * kMs; t += kMs) {
     MotionWindow motion = WindowAt(RoughRide{}, t, kMs);
@@ -142,7 +142,7 @@ TEST(SensorSuite, StreamsOfDifferentSensorsAreIndependent) {
     config.gyro = {.noise_density = 1.0};
     config.accel = {.noise_density = 1.0};
   }
-  SensorSuite suite(sensors, {}, 1, 0.005, 9.81);
+  SensorSuite suite(sensors, {}, 1, Environment{.step_ns = 5'000'000});
   std::vector<std::vector<double>> channels(12, std::vector<double>(kCount));
   std::vector<Measurement> out;
   for (std::size_t n = 0; n <= kCount; ++n) {
@@ -172,7 +172,7 @@ TEST(SensorSuite, KnowsTheTrueBiasesInTheBodysAxes) {
   config.gyro.turn_on_bias = 0.1;
   config.accel.bias_walk = 0.5;
   const std::vector<SensorSpec> sensors{EncoderSpec(), {"imu", 0, SlantedMounting(), config}};
-  SensorSuite suite(sensors, {}, 1, 0.001, 9.81);
+  SensorSuite suite(sensors, {}, 1, Environment{});
   const Eigen::Matrix3d R_BS = SlantedMounting().R;
   std::vector<Measurement> out;
   for (models::TimeNs t = 0; t <= 100 * kMs; t += kMs) {
@@ -190,7 +190,7 @@ TEST(SensorSuite, KnowsTheTrueBiasesInTheBodysAxes) {
     EXPECT_GT((suite.accel_bias() - accel).norm(), 0.0);  // it walked on
   }
   EXPECT_GT(suite.gyro_bias().norm(), 1e-3);
-  EXPECT_EQ(SensorSuite({}, {}, 1, 0.001, 9.81).gyro_bias(), Eigen::Vector3d::Zero());
+  EXPECT_EQ(SensorSuite({}, {}, 1, Environment{}).gyro_bias(), Eigen::Vector3d::Zero());
 }
 
 TEST(SensorSuite, AppliesFaultsToTheNamedSensor) {
@@ -203,26 +203,26 @@ TEST(SensorSuite, AppliesFaultsToTheNamedSensor) {
 
 TEST(SensorSuite, RefusesDuplicateNamesUnknownFaultTargetsAndOddSteps) {
   const auto refusal = [](const std::vector<SensorSpec>& sensors,
-                          const std::vector<FaultConfig>& faults, double step_s) -> std::string {
+                          const std::vector<FaultConfig>& faults, models::TimeNs step_ns) -> std::string {
     try {
-      SensorSuite(sensors, faults, 1, step_s, 9.81);
+      SensorSuite(sensors, faults, 1, Environment{.step_ns = step_ns});
     } catch (const std::invalid_argument& error) {
       return error.what();
     }
     return "";
   };
-  EXPECT_EQ(refusal({ImuSpec("imu"), ImuSpec("imu")}, {}, 0.001), "two sensors are called 'imu'");
+  EXPECT_EQ(refusal({ImuSpec("imu"), ImuSpec("imu")}, {}, 1'000'000), "two sensors are called 'imu'");
   const std::vector<FaultConfig> faults{{.sensor = "lidar"}};
-  EXPECT_EQ(refusal({ImuSpec("imu")}, faults, 0.001),
+  EXPECT_EQ(refusal({ImuSpec("imu")}, faults, 1'000'000),
             "a fault names the sensor 'lidar', which the robot does not have");
   const std::vector<FaultConfig> rate_of_imu{{.sensor = "imu", .channels = FaultChannels::kRate}};
-  EXPECT_EQ(refusal({ImuSpec("imu")}, rate_of_imu, 0.001),
+  EXPECT_EQ(refusal({ImuSpec("imu")}, rate_of_imu, 1'000'000),
             "a fault strikes the channels 'rate' of 'imu', which that sensor does not have");
   const std::vector<FaultConfig> gyro{{.sensor = "imu", .channels = FaultChannels::kGyro}};
-  EXPECT_EQ(refusal({ImuSpec("imu")}, gyro, 0.001), "");
-  EXPECT_NE(refusal({}, {}, 1.0 / 3.0), "");
-  EXPECT_NE(refusal({}, {}, 0.0), "");
-  EXPECT_EQ(refusal({ImuSpec("imu")}, {}, 0.001), "");
+  EXPECT_EQ(refusal({ImuSpec("imu")}, gyro, 1'000'000), "");
+  EXPECT_NE(refusal({}, {}, 0), "");
+  EXPECT_NE(refusal({}, {}, 1'000'000'001), "");
+  EXPECT_EQ(refusal({ImuSpec("imu")}, {}, 1'000'000), "");
 }
 
 }  // namespace

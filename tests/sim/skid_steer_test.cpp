@@ -14,7 +14,7 @@ constexpr double kDt = 0.001;
 
 /// Four wheels in the air, driven by the motors.
 struct Bench {
-  SkidSteerDrive drive{Husky().skid_steer};
+  SkidSteerDrive drive{Husky().skid_steer()};
   models::EncoderVector angle = models::EncoderVector::Zero(4),
                         rate = models::EncoderVector::Zero(4);
   models::EncoderVector inertia = models::EncoderVector::Constant(4, 0.104);  // wheel + armature
@@ -107,14 +107,14 @@ TEST(SkidSteer, RefusesARobotThatCannotBeBuilt) {
   };
   EXPECT_EQ(Refusal([](auto&, auto&) {}), "");
   EXPECT_TRUE(
-      says(Refusal([](auto& r, auto&) { r.skid_steer.wheel_radius_m = -1; }), "wheel_radius_m"));
-  EXPECT_TRUE(says(Refusal([](auto& r, auto&) { r.skid_steer.wheel_armature_kg_m2 = NAN; }),
+      says(Refusal([](auto& r, auto&) { r.skid_steer().wheel_radius_m = -1; }), "wheel_radius_m"));
+  EXPECT_TRUE(says(Refusal([](auto& r, auto&) { r.skid_steer().wheel_armature_kg_m2 = NAN; }),
                    "wheel_armature"));
   EXPECT_TRUE(
-      says(Refusal([](auto& r, auto&) { r.skid_steer.left_joints.clear(); }), "left_joints"));
-  EXPECT_TRUE(says(Refusal([](auto& r, auto&) { r.skid_steer.left_joints = {"mid_wheel"}; }),
+      says(Refusal([](auto& r, auto&) { r.skid_steer().left_joints.clear(); }), "left_joints"));
+  EXPECT_TRUE(says(Refusal([](auto& r, auto&) { r.skid_steer().left_joints = {"mid_wheel"}; }),
                    "'mid_wheel'"));
-  EXPECT_TRUE(says(Refusal([](auto& r, auto&) { r.skid_steer.left_joints = {"imu_joint"}; }),
+  EXPECT_TRUE(says(Refusal([](auto& r, auto&) { r.skid_steer().left_joints = {"imu_joint"}; }),
                    "wheel 'imu_joint' is not a continuous joint"));
   EXPECT_TRUE(says(Refusal([](auto& r, auto&) { r.base_link = "chassis"; }), "'chassis'"));
   EXPECT_TRUE(says(Refusal([](auto&, auto& a) { a.track_scale = 0; }), "actual.track_scale"));

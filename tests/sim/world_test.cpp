@@ -222,7 +222,7 @@ TEST(World, APhysicsWarningEndsTheRunInSilence) {
   const auto log = std::filesystem::current_path() / "MUJOCO_LOG.TXT";
   const bool before = std::filesystem::exists(log);
   RobotConfig robot = Husky();
-  robot.skid_steer.normal_damping_n_s_m = 1e7;  // unstable at 1 ms
+  robot.skid_steer().normal_damping_n_s_m = 1e7;  // unstable at 1 ms
   testing::internal::CaptureStderr();
   testing::internal::CaptureStdout();
   WorldConfig config;
@@ -257,7 +257,7 @@ TEST(World, RefusesAWorldThatCannotBeBuilt) {
   };
   EXPECT_TRUE(
       names(refusal([](auto& r, auto&) { r.urdf_path = "/no/such.urdf"; }), "/no/such.urdf"));
-  EXPECT_TRUE(names(refusal([](auto& r, auto&) { r.skid_steer.right_joints[0] = "no_wheel"; }),
+  EXPECT_TRUE(names(refusal([](auto& r, auto&) { r.skid_steer().right_joints[0] = "no_wheel"; }),
                     "no_wheel"));
   EXPECT_TRUE(names(refusal([](auto&, auto& c) { c.physics_step_s = -0.001; }), "physics_step_s"));
   EXPECT_TRUE(names(refusal([](auto&, auto& c) { c.physics_step_s = NAN; }), "physics_step_s"));

@@ -1,0 +1,15 @@
+#include "reckon/sim/sensor_config.h"
+
+#include <array>
+
+namespace reckon::sim {
+
+models::SensorKind KindOf(const SensorErrors& errors) {
+  using Kind = models::SensorKind;
+  constexpr std::array kKinds{Kind::kImu,   Kind::kEncoders, Kind::kBodyVelocity,
+                              Kind::kDepth, Kind::kPose,     Kind::kBodyVelocity};
+  static_assert(kKinds.size() == std::variant_size_v<SensorErrors>);
+  return kKinds[errors.index()];
+}
+
+}  // namespace reckon::sim
