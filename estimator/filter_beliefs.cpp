@@ -107,6 +107,14 @@ Refusal FilterBeliefs::WhyUseless(const models::Measurement& m) const {
   return Refusal::kNone;
 }
 
+Eigen::Matrix3d FilterBeliefs::CovarianceOf(const models::BodyVelocitySample& y) const {
+  const double scale = setup.noise.body_velocity_scale;
+  Eigen::Matrix3d covariance = scale * scale * y.covariance;
+  if (y.over_ground) return covariance;
+  covariance.diagonal().array() += std::pow(setup.noise.water_current_m_per_s, 2);
+  return covariance;
+}
+
 int FilterBeliefs::MostCorrections(const models::Measurement& m) const {
   if (std::holds_alternative<models::ContactSample>(m.sample)) return 0;
   if (std::holds_alternative<models::PoseSample>(m.sample)) return 2;  // position, yaw

@@ -33,6 +33,10 @@ struct FilterBeliefs {
   /// can use it, else why not. Does not allocate.
   Refusal WhyUseless(const models::Measurement& measurement) const;
 
+  /// Of a velocity over ground that `y` tells, in its sensor's axes: the delivered covariance,
+  /// scaled, and that of the water if it is relative to it.
+  Eigen::Matrix3d CovarianceOf(const models::BodyVelocitySample& y) const;
+
   /// The most corrections that one measurement can make.
   int MostCorrections(const models::Measurement& measurement) const;
 

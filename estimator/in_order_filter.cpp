@@ -169,14 +169,10 @@ void InOrderFilter<Core>::Correct(const Measurement& measurement, Report* report
 template <class Core>
 void InOrderFilter<Core>::Use(const Measurement& m, const models::BodyVelocitySample& y,
                               Report* report) {
-  models::BodyVelocitySample scaled = y;
-  const double scale = beliefs_->setup.noise.body_velocity_scale;
-  scaled.covariance *= scale * scale;
-  if (!y.over_ground) {
-    scaled.covariance.diagonal().array() += std::pow(beliefs_->setup.noise.water_current_m_per_s, 2);
-  }
+  models::BodyVelocitySample believed = y;
+  believed.covariance = beliefs_->CovarianceOf(y);
   const auto model = [&](const NavigationState& x) {
-    return LinearisedVelocity(scaled, beliefs_->X_IS[m.sensor], Turn(), x);
+    return LinearisedVelocity(believed, beliefs_->X_IS[m.sensor], Turn(), x);
   };
   Apply(m.valid_ns, m.sensor, model, report);
 }

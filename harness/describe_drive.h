@@ -100,7 +100,7 @@ sim::DriveConfig DefaultDrive(sim::DriveKind kind);
 template <class Archive>
 void Describe(Archive& a, sim::DriveConfig& d) {
   sim::DriveKind kind = sim::KindOf(d);
-  a.Kind("type", kind, Choices<sim::DriveKind>(), "What moves the robot", Need::kSomewhere);
+  a.Kind("type", kind, Choices<sim::DriveKind>(), "What moves the robot");
   if (kind != sim::KindOf(d)) d = DefaultDrive(kind);
   std::visit([&a](auto& drive) { DescribeKind(a, drive); }, d);
 }

@@ -58,8 +58,8 @@ TEST(RecordingReader, RefusesNumbersThatStandForNothing) {
   damaged.decision = static_cast<estimator::Decision>(6);
   EXPECT_EQ(Complaint(damaged), corrections + "decision is 6, expected 0 to 5");
   damaged = whole;
-  damaged.reason = static_cast<estimator::Refusal>(11);
-  EXPECT_EQ(Complaint(damaged), corrections + "reason is 11, expected 0 to 10");
+  damaged.reason = static_cast<estimator::Refusal>(12);
+  EXPECT_EQ(Complaint(damaged), corrections + "reason is 12, expected 0 to 11");
   damaged = whole;
   damaged.sensor = 3;
   EXPECT_EQ(Complaint(damaged), corrections + "sensor is 3, expected 0 to 2");
@@ -68,7 +68,7 @@ TEST(RecordingReader, RefusesNumbersThatStandForNothing) {
   EXPECT_EQ(Complaint(whole, estimate),
             "estimates/riekf/state, row 1: damaged: error_form is 255, expected 0 to 2");
   EXPECT_EQ(Complaint(whole, SomeEstimate(2), static_cast<estimator::Refusal>(77)),
-            "estimates/riekf/refusals, row 1: damaged: reason is 77, expected 0 to 10");
+            "estimates/riekf/refusals, row 1: damaged: reason is 77, expected 0 to 11");
 }
 
 }  // namespace

@@ -145,7 +145,7 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Case{"ContactsAreNotSimulated", "sensors: {feet: {type: contacts, frame: base_link}}\n",
              "sc.yaml:1:24: error: '/sensors/feet/type': expected imu, encoders, body_velocity, "
-             "depth or pose, found 'contacts'"},
+             "depth, pose or dvl, found 'contacts'"},
         Case{"NegativeDepthNoise", "sensors: {d: {type: depth, frame: base_link, noise_m: -1}}\n",
              "sc.yaml:1:55: error: '/sensors/d/noise_m': expected a finite number from 0 to 100, "
              "found '-1'"},

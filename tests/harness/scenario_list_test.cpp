@@ -4,6 +4,7 @@
 
 #include "reckon/harness/list_command.h"
 #include "reckon/harness/yaml_error.h"
+#include "reckon/sim/dvl_grades.h"
 #include "reckon/sim/imu_grades.h"
 
 namespace reckon::harness {
@@ -21,6 +22,9 @@ TEST(ScenarioList, HoldsWhatAScenarioCanName) {
   EXPECT_TRUE(has("estimators", "inekf"));
   EXPECT_TRUE(has("estimators", "process"));
   EXPECT_TRUE(has("sensors", "encoders"));
+  EXPECT_TRUE(has("sensors", "dvl"));
+  EXPECT_TRUE(has("grades", "a50"));
+  EXPECT_TRUE(has("missions", "lawnmower"));
   EXPECT_TRUE(has("terrains", "kerbs"));
   EXPECT_TRUE(has("motions", "figure_eight"));
   EXPECT_TRUE(has("faults", "outlier_burst"));
@@ -32,8 +36,10 @@ TEST(ScenarioList, HoldsWhatAScenarioCanName) {
 TEST(ScenarioList, SaysWhichFieldsOfAGradeAreBlank) {
   const auto all = nlohmann::json::parse(ListJson());
   for (const auto& entry : all.at("grades")) {
-    const auto* grade = sim::FindImuGrade(entry.at("name").get<std::string>());
-    ASSERT_NE(grade, nullptr);
+    const auto name = entry.at("name").get<std::string>();
+    const auto* grade = sim::FindImuGrade(name);
+    ASSERT_TRUE(grade != nullptr || sim::FindDvlGrade(name) != nullptr);
+    if (grade == nullptr) continue;
     EXPECT_EQ(entry.at("blank").get<std::vector<std::string>>(), sim::BlankFields(*grade));
   }
   EXPECT_NE(ListText("grades").find("blank, so zero: "), std::string::npos);
