@@ -27,6 +27,11 @@ class ErrorState {
   const Covariance& P() const { return P_; }
   Covariance& P() { return P_; }
 
+  /// What a height leaves out when it is linearised: forms in which that is another matter leave it
+  /// be.
+  static void AddCurvature(const Eigen::Vector3d& /*q*/, double /*samples*/,
+                           const Linearisation<1>& /*m*/) {}
+
  protected:
   /// b⁺ = b̂ + ζ.
   void RetractBiases(const SlotVector& increment) {

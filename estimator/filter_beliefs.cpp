@@ -1,5 +1,7 @@
 #include "reckon/estimator/filter_beliefs.h"
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -113,6 +115,12 @@ Eigen::Matrix3d FilterBeliefs::CovarianceOf(const models::BodyVelocitySample& y)
   if (y.over_ground) return covariance;
   covariance.diagonal().array() += std::pow(setup.noise.water_current_m_per_s, 2);
   return covariance;
+}
+
+double FilterBeliefs::SamplesOfOneTilt(models::SensorId sensor) const {
+  constexpr double kCorrelationTime = 10.0;  // s
+  const double period_s = models::Seconds(setup.suite.sensors[sensor].period_ns);
+  return period_s > 0.0 ? std::max(1.0, 2.0 * kCorrelationTime / period_s) : 1.0;
 }
 
 int FilterBeliefs::MostCorrections(const models::Measurement& m) const {

@@ -37,6 +37,10 @@ struct FilterBeliefs {
   /// scaled, and that of the water if it is relative to it.
   Eigen::Matrix3d CovarianceOf(const models::BodyVelocitySample& y) const;
 
+  /// Over how many of its samples the error of a tilt that a sensor meets is one and the same, as
+  /// white noise counts them: twice its correlation time, taken for 10 s, over the period.
+  double SamplesOfOneTilt(models::SensorId sensor) const;
+
   /// The most corrections that one measurement can make.
   int MostCorrections(const models::Measurement& measurement) const;
 

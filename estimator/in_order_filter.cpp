@@ -252,7 +252,10 @@ void InOrderFilter<Core>::UseFloor(const Measurement& m, Slot slot, const Point&
 template <class Core>
 void InOrderFilter<Core>::Use(const Measurement& m, const models::DepthSample& y, Report* report) {
   const auto model = [&](const NavigationState& x) {
-    return LinearisedDepth(y, beliefs_->X_IS[m.sensor].p, beliefs_->setup.noise.depth_m, x);
+    const Vector3d& r = beliefs_->X_IS[m.sensor].p;
+    auto height = LinearisedDepth(y, r, beliefs_->setup.noise.depth_m, x);
+    core_.AddCurvature(x.p + x.R * r, beliefs_->SamplesOfOneTilt(m.sensor), height);
+    return height;
   };
   Apply(m.valid_ns, m.sensor, model, report);
 }

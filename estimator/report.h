@@ -37,6 +37,9 @@ enum class Refusal : std::uint8_t {
   kNoLock,      ///< the sensor says itself that it has lost what it measures
 };
 
+/// How many reasons there are.
+inline constexpr std::size_t kRefusals = static_cast<std::size_t>(Refusal::kNoLock) + 1;
+
 /// Whether a correction of this decision moves the state.
 inline bool IsApplied(Decision decision) {
   return decision == Decision::kAccepted || decision == Decision::kWarned ||

@@ -25,7 +25,7 @@ NisStatistics NisOf(std::span<const TrackCorrection> corrections, models::Sensor
 
 inline constexpr std::size_t kDecisions =
     static_cast<std::size_t>(estimator::Decision::kWidened) + 1;
-inline constexpr std::size_t kRefusals = 11;
+using estimator::kRefusals;
 
 /// What became of one sensor's measurements.
 struct DecisionCounts {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "reckon/estimator/estimate.h"
+#include "reckon/estimator/report.h"
 
 namespace reckon::ground_truth {
 namespace {
@@ -107,7 +108,7 @@ constexpr std::array<std::string_view, 3> kErrorForms{"right_invariant", "left_i
                                                       "multiplicative"};
 constexpr std::array<std::string_view, 6> kDecisions{"accepted", "warned",  "inflated",
                                                      "rejected", "refused", "widened"};
-constexpr std::array<std::string_view, 12> kRefusals{
+constexpr std::array<std::string_view, estimator::kRefusals> kRefusalWords{
     "none",        "not_finite", "not_initialised", "moving", "backwards", "late",
     "from_future", "gap",        "invalid",         "unused", "duplicate", "no_lock"};
 
@@ -229,7 +230,7 @@ Columns PriorColumns() {
 std::span<const std::string_view> SensorKindNames() { return kSensorKinds; }
 std::span<const std::string_view> ErrorFormNames() { return kErrorForms; }
 std::span<const std::string_view> DecisionNames() { return kDecisions; }
-std::span<const std::string_view> RefusalNames() { return kRefusals; }
+std::span<const std::string_view> RefusalNames() { return kRefusalWords; }
 
 const std::vector<std::string>& ErrorNames() {
   static const std::vector<std::string> names = [] {

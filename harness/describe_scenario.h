@@ -110,6 +110,8 @@ void DescribeSimulation(Archive& a, Scenario& s) {
   if (Archive::kListsAll || swims) {
     a.Field("mission", s.world.mission, "Truth: what an underwater vehicle does");
   }
+  // The other one is refused with a sentence of its own.
+  if (!Archive::kListsAll) a.Directive(swims ? "motion" : "mission", "");
   a.Field("actual", s.world.actual, "Truth: how the simulated robot differs from the nominal one");
   a.Removable("sensors", s.sensors,
               "Truth: what the sensors send; `off` removes one of the robot's");

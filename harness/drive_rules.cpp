@@ -20,16 +20,22 @@ class DriveRules {
   void Run(const models::UrdfRobot& urdf, const std::string& base_link) const {
     CheckWorld();
     if (const auto* wheels = std::get_if<sim::SkidSteerConfig>(&s_.drive)) {
+      Forbid("/mission", "this robot drives: its `motion:` says where it goes");
       CheckMotion();
       CheckWheels(*wheels, urdf, base_link);
       book_.Require(!s_.world.water.has_value(), "/world/water",
                     "no water: this robot drives on the ground");
     } else if (const auto* swimmer = std::get_if<sim::UnderwaterConfig>(&s_.drive)) {
+      Forbid("/motion", "this robot swims: its `mission:` says where it goes");
       CheckSwimmer(*swimmer);
     }
   }
 
  private:
+  void Forbid(const std::string& path, const std::string& why) const {
+    if (book_.IsWritten(path)) book_.Complain(path, why);
+  }
+
   void CheckWorld() const {
     const sim::TerrainConfig& t = s_.world.terrain;
     book_.Require(t.kind != sim::TerrainKind::kRough || t.shortest_wave_m <= t.longest_wave_m,

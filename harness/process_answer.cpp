@@ -202,11 +202,10 @@ Enum Named(const Json& value, const std::string& key,
 
 constexpr std::array<std::string_view, 6> kDecisions{"accepted", "warned",  "inflated",
                                                      "rejected", "refused", "widened"};
-constexpr std::array<std::string_view, 12> kRefusals{
+constexpr std::array<std::string_view, estimator::kRefusals> kRefusals{
     "none",        "not_finite", "not_initialised", "moving", "backwards", "late",
     "from_future", "gap",        "invalid",         "unused", "duplicate", "no_lock"};
 static_assert(static_cast<std::size_t>(estimator::Decision::kWidened) + 1 == kDecisions.size());
-static_assert(static_cast<std::size_t>(estimator::Refusal::kNoLock) + 1 == kRefusals.size());
 
 estimator::Correction ParseCorrection(const Json& object, const AnswerContext& context) {
   if (!object.is_object()) Refuse("'corrections' to be a list of objects", Text(object));

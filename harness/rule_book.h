@@ -22,6 +22,9 @@ class RuleBook {
   /// `root` is what the scenario was read from.
   RuleBook(const YamlNode& root, Problems& problems) : root_(root), problems_(problems) {}
 
+  /// Whether there is a value at `path`.
+  bool IsWritten(const std::string& path) const { return root_.At(path) != nullptr; }
+
   void Complain(const std::string& path, const std::string& what) const {
     problems_.Add(Where(path), "'" + path + "': " + what);
   }

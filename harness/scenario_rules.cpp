@@ -111,7 +111,7 @@ class Rules : private RuleBook {
     try {
       const sim::DvlBeams check("beams", dvl.beam_angle_deg, dvl.azimuths_deg);
     } catch (const std::invalid_argument& error) {
-      Complain(path, error.what());
+      Complain(path + "/azimuths_deg", error.what());
     }
   }
 

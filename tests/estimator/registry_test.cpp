@@ -41,7 +41,7 @@ TEST(Names, AreThereForEveryDecisionAndRefusal) {
   for (int i = 0; i <= static_cast<int>(Decision::kRefused); ++i) {
     EXPECT_TRUE(names.insert(Name(static_cast<Decision>(i))).second);
   }
-  for (int i = 0; i <= static_cast<int>(Refusal::kNoLock); ++i) {
+  for (int i = 0; i < static_cast<int>(kRefusals); ++i) {
     EXPECT_TRUE(names.insert(Name(static_cast<Refusal>(i))).second);
   }
   EXPECT_EQ(names.count("unknown"), 0u);

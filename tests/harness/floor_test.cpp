@@ -65,6 +65,20 @@ TEST(Floor, Kerbs) {
   std::cout << "kerbs: " << 1e6 * floor.position_m << " um, " << floor.attitude_rad << " rad\n";
 }
 
+constexpr const char* kUnderWater = R"(
+robot: bluerov2
+world: {water: {current: {mean_m_s: [0.1, 0.05, 0], sigma_m_s: 0.05}}}
+mission: {kind: helix, speed_m_s: 0.5}
+)";
+
+TEST(Floor, UnderWater) {
+  const Floor floor = FloorOf(kUnderWater);
+  EXPECT_LE(floor.position_m, 2e-5);
+  EXPECT_LE(floor.attitude_rad, 1e-9);
+  std::cout << "under water: " << 1e6 * floor.position_m << " um, " << floor.attitude_rad
+            << " rad\n";
+}
+
 TEST(Floor, MultiplicativeFilterHasTheSameMean) {
   const Floor floor = FloorOf(kRough, {}, "mekf");
   EXPECT_LE(floor.position_m, 1e-4);
