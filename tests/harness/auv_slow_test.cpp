@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <iostream>
-#include <mutex>
 
 #include "harness/evidence.h"
 #include "reckon/harness/yaml_reader.h"
@@ -109,16 +109,31 @@ std::map<std::string, Paired> InvariantOverMultiplicative(
   return paired;
 }
 
-TEST(DriftExperiment, SmallInitialErrors) {
-  const auto paired = InvariantOverMultiplicative({});
-  EXPECT_LT(paired.at("position").mean(), 10.0);
+/// Half a radian of attitude, and half a metre a second.
+std::vector<std::string> LargeErrors(const std::string& gate) {
+  return {"initial.sigma.roll_pitch_rad=0.35", "initial.sigma.yaw_rad=0.35",
+          "initial.sigma.velocity_m_s=0.5", "estimators.riekf.gate.action=" + gate,
+          "estimators.mekf.gate.action=" + gate};
 }
 
-TEST(DriftExperiment, LargeInitialErrors) {
-  const auto paired = InvariantOverMultiplicative(
-      {"initial.sigma.roll_pitch_rad=0.35", "initial.sigma.yaw_rad=0.35",
-       "initial.sigma.velocity_m_s=0.5"});
-  EXPECT_LT(paired.at("position").mean(), 10.0);
+// DRIFT (section VI-F) finds its invariant filter slightly better in position, roll and pitch, on
+// one run. Near the truth both filters are one to first order: no difference is left over 50 seeds.
+TEST(DriftExperiment, NearTheTruthBothFiltersAreOne) {
+  const auto paired = InvariantOverMultiplicative({});
+  for (const auto& [name, ratio] : paired) {
+    EXPECT_LT(std::abs(ratio.mean()), 0.05) << name;  // 5 %
+    EXPECT_LT(ratio.half_width(), 0.05) << name << ": the seeds can tell";
+  }
+}
+
+// Far from it the claim holds by much: the invariant error propagates linearly whatever its size.
+TEST(DriftExperiment, FarFromTheTruthTheInvariantFilterIsBetter) {
+  for (const char* gate : {"reject", "off"}) {
+    std::cout << "gate: " << gate << "\n";
+    for (const auto& [name, ratio] : InvariantOverMultiplicative(LargeErrors(gate))) {
+      EXPECT_LT(ratio.mean() + ratio.half_width(), std::log(0.9)) << name << ", gate " << gate;
+    }
+  }
 }
 
 }  // namespace
