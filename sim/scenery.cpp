@@ -26,6 +26,36 @@ void SetPosition(mjsGeom* geom, double x, double y, double z) {
   geom->pos[2] = z;
 }
 
+/// To be seen: the haze of water all around.
+void AddHaze(mjSpec* spec) {
+  mjsTexture* texture = mjs_addTexture(spec, nullptr);
+  mjs_setName(texture->element, "haze");
+  texture->type = mjTEXTURE_SKYBOX;
+  texture->builtin = mjBUILTIN_GRADIENT;
+  texture->width = texture->height = 64;
+  const double above[] = {0.20, 0.50, 0.62}, level[] = {0.10, 0.30, 0.40};
+  std::copy(above, above + 3, texture->rgb1);
+  std::copy(level, level + 3, texture->rgb2);
+}
+
+/// To be seen: sand in squares of a metre.
+void AddSand(mjSpec* spec) {
+  mjsTexture* texture = mjs_addTexture(spec, nullptr);
+  mjs_setName(texture->element, "sand");
+  texture->type = mjTEXTURE_2D;
+  texture->builtin = mjBUILTIN_CHECKER;
+  texture->width = texture->height = 64;
+  const double light[] = {0.76, 0.70, 0.52}, dark[] = {0.68, 0.62, 0.45};
+  std::copy(light, light + 3, texture->rgb1);
+  std::copy(dark, dark + 3, texture->rgb2);
+  mjsMaterial* material = mjs_addMaterial(spec, nullptr);
+  mjs_setName(material->element, "sand");
+  mjs_setInStringVec(material->textures, mjTEXROLE_RGB, "sand");
+  material->texuniform = 1;
+  material->texrepeat[0] = material->texrepeat[1] = 0.5F;  // two squares a repeat
+  material->specular = material->reflectance = 0.0F;
+}
+
 void AddPlane(const Seabed& seabed, mjsBody* world) {
   const Ground ground = seabed.terrain().At(0.0, 0.0);
   mjsGeom* plane = mjs_addGeom(world, nullptr);
@@ -34,6 +64,7 @@ void AddPlane(const Seabed& seabed, mjsBody* world) {
   SetPosition(plane, 0.0, 0.0, -seabed.Depth(0.0, 0.0));
   const double normal[3] = {-ground.hx, -ground.hy, 1.0};
   mju_quatZ2Vec(plane->quat, normal);
+  mjs_setString(plane->material, "sand");
   SetHardContact(plane, seabed.terrain().config().friction);
 }
 
@@ -60,6 +91,7 @@ void AddHeightfield(const Seabed& seabed, mjSpec* spec, mjsBody* world) {
   mjsGeom* geom = mjs_addGeom(world, nullptr);
   geom->type = mjGEOM_HFIELD;
   mjs_setString(geom->hfieldname, "seabed");
+  mjs_setString(geom->material, "sand");
   SetPosition(geom, 0.0, 0.0, static_cast<double>(*low) - seabed.mean_depth_m());
   SetHardContact(geom, seabed.terrain().config().friction);
   mjs_setFloat(field->userdata, heights.data(), static_cast<int>(heights.size()));
@@ -74,6 +106,9 @@ void AddFeature(const FeatureConfig& feature, const Seabed& seabed, mjsBody* wor
   const double half_yaw = feature.yaw_deg * std::numbers::pi / 360.0;
   const double yaw[4] = {std::cos(half_yaw), 0.0, 0.0, std::sin(half_yaw)};
   std::copy(yaw, yaw + 4, geom->quat);
+  const float rock[] = {0.45F, 0.42F, 0.40F, 1.0F}, rust[] = {0.60F, 0.33F, 0.20F, 1.0F};
+  const float* colour = feature.kind == FeatureKind::kPipe ? rust : rock;
+  std::copy(colour, colour + 4, geom->rgba);
   switch (feature.kind) {
     case FeatureKind::kBoulder:
       geom->type = mjGEOM_ELLIPSOID;
@@ -99,6 +134,8 @@ void AddFeature(const FeatureConfig& feature, const Seabed& seabed, mjsBody* wor
 }  // namespace
 
 void AddSeabed(const Seabed& seabed, mjSpec* spec, mjsBody* world) {
+  AddHaze(spec);
+  AddSand(spec);
   if (seabed.terrain().config().kind == TerrainKind::kRough) {
     AddHeightfield(seabed, spec, world);
   } else {

@@ -7,8 +7,9 @@
 
 namespace reckon::sim {
 
-/// The geom groups: what a ray can meet, and what it can't.
-inline constexpr int kSceneryGroup = 0, kRobotGroup = 1;
+/// The geom groups: what a ray can meet, what is seen of the robot, and what it touches with (not
+/// drawn).
+inline constexpr int kSceneryGroup = 0, kRobotGroup = 1, kHullGroup = 3;
 
 /// Contact of hard things: the geoms of scenery and robot meet with this friction.
 void SetHardContact(mjsGeom* geom, double friction);

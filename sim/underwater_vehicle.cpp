@@ -30,7 +30,7 @@ ModelPtr BuildModel(const RobotConfig& robot, const WorldConfig& config, const S
   for (auto* element = mjs_firstElement(spec.get(), mjOBJ_GEOM); element != nullptr;
        element = mjs_nextElement(spec.get(), element)) {
     mjsGeom* geom = mjs_asGeom(element);
-    geom->group = kRobotGroup;
+    geom->group = geom->contype != 0 ? kHullGroup : kRobotGroup;
     geom->mass = 0.0;
     SetHardContact(geom, config.terrain.friction);
   }
@@ -47,11 +47,11 @@ int BodyOf(const mjModel& model, const RobotConfig& robot) {
   return mj_name2id(&model, mjOBJ_BODY, robot.base_link.c_str());
 }
 
-/// Of the robot's geoms over the origin of B, when it is level.
+/// Of the robot's hull over the origin of B, when it is level.
 double TopOf(const mjModel& model, const mjData& data) {
   double top = 0.0;
   for (int i = 0; i < model.ngeom; ++i) {
-    if (model.geom_group[i] != kRobotGroup) continue;
+    if (model.geom_group[i] != kHullGroup) continue;
     const double* box = model.geom_aabb + static_cast<std::ptrdiff_t>(6 * i);
     const double* R = data.geom_xmat + static_cast<std::ptrdiff_t>(9 * i);
     double height = data.geom_xpos[static_cast<std::ptrdiff_t>(3 * i) + 2];

@@ -45,6 +45,7 @@ class Vehicle {
   /// What sensors can see; null if there is nothing that they could.
   virtual const Surroundings* surroundings() const { return nullptr; }
 
+  const mjModel& model() const { return *model_; }
   const mjData& data() const { return *data_; }
 
  protected:

@@ -65,6 +65,8 @@ class World::Impl {
 
   const MotionWindow& motion() const { return motion_; }
 
+  const Vehicle& vehicle() const { return *vehicle_; }
+
   Environment environment() const {
     Environment environment;
     environment.step_ns = motion_.step_ns;
@@ -153,6 +155,8 @@ World& World::operator=(World&&) noexcept = default;
 void World::Advance() { impl_->Advance(); }
 const MotionWindow& World::motion() const { return impl_->motion(); }
 Environment World::environment() const { return impl_->environment(); }
+const mjModel_& World::physics_model() const { return impl_->vehicle().model(); }
+const mjData_& World::physics_data() const { return impl_->vehicle().data(); }
 ground_truth::Truth World::TruthNow() const { return impl_->TruthNow(); }
 
 std::string World::PhysicsVersion() { return std::string("MuJoCo ") + mj_versionString(); }

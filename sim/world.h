@@ -11,6 +11,9 @@
 #include "reckon/sim/robot_config.h"
 #include "reckon/sim/world_config.h"
 
+struct mjModel_;
+struct mjData_;
+
 namespace reckon::sim {
 
 /// The run can't go on: the robot left the map, turned over, or the physics raised a warning.
@@ -41,6 +44,10 @@ class World {
 
   /// What really happens at `motion().t_ns`, with zero IMU biases (the caller knows the sensors).
   ground_truth::Truth TruthNow() const;
+
+  /// The physics itself, for pictures: its state is that of the next instant.
+  const mjModel_& physics_model() const;
+  const mjData_& physics_data() const;
 
   /// Name and version of the physics engine.
   static std::string PhysicsVersion();
