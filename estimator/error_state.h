@@ -29,7 +29,7 @@ class ErrorState {
 
   /// What a height leaves out when it is linearised: forms in which that is another matter leave it
   /// be.
-  static void AddCurvature(const Eigen::Vector3d& /*q*/, double /*samples*/,
+  static void AddCurvature(const Eigen::Vector3d& /*r*/, double /*samples*/,
                            const Linearisation<1>& /*m*/) {}
 
  protected:

@@ -252,9 +252,8 @@ void InOrderFilter<Core>::UseFloor(const Measurement& m, Slot slot, const Point&
 template <class Core>
 void InOrderFilter<Core>::Use(const Measurement& m, const models::DepthSample& y, Report* report) {
   const auto model = [&](const NavigationState& x) {
-    const Vector3d& r = beliefs_->X_IS[m.sensor].p;
-    auto height = LinearisedDepth(y, r, beliefs_->setup.noise.depth_m, x);
-    core_.AddCurvature(x.p + x.R * r, beliefs_->SamplesOfOneTilt(m.sensor), height);
+    auto height = LinearisedDepth(y, beliefs_->X_IS[m.sensor].p, beliefs_->setup.noise.depth_m, x);
+    core_.AddCurvature(beliefs_->X_IS[m.sensor].p, beliefs_->SamplesOfOneTilt(m.sensor), height);
     return height;
   };
   Apply(m.valid_ns, m.sensor, model, report);
@@ -341,6 +340,7 @@ std::optional<Correction> InOrderFilter<Core>::IfItFits(TimeNs t_ns, models::Sen
   Blame(correction);
   if (report != nullptr) report->Add(correction);
   if (!IsApplied(correction.decision)) return std::nullopt;
+  kalman.AddLasting();
   if (correction.decision == Decision::kInflated) kalman.Inflate(beliefs_->gate.Limit(kRows));
   use(kalman, correction.decision);
   return correction;

@@ -16,6 +16,7 @@ Linearisation<kRows> MovedToPrior(const Linearisation<kRows>& m, const SlotVecto
   Linearisation<kRows> moved;
   moved.z = m.z;
   moved.N = m.N;
+  moved.lasting = m.lasting;
   Eigen::Matrix<double, kRows, 3> H_theta = Eigen::Matrix<double, kRows, 3>::Zero();
   for (const Term<kRows>& term : m.terms()) {
     const Eigen::Matrix<double, kRows, 3> H = Dense(term);
@@ -48,7 +49,8 @@ void CorrectIterated(RightInvariantEkf& core, const Model& model, int iterations
   xi.fill(Lane::All(0.0));
   for (int i = 1;; ++i) {
     const Linearisation<kRows> m = MovedToPrior<kRows>(model(core.x()), xi);
-    const KalmanCorrection<kRows> kalman(core.P(), m);
+    KalmanCorrection<kRows> kalman(core.P(), m);
+    kalman.AddLasting();
     const SlotVector next = kalman.Gain();
     double step = 0.0;
     for (const Slot slot : core.P().active()) {

@@ -74,6 +74,16 @@ void KalmanCorrection<kRows>::Inflate(double target) {
 }
 
 template <int kRows>
+void KalmanCorrection<kRows>::AddLasting() {
+  if constexpr (kRows == 1) {
+    if (m_.lasting <= 0.0) return;
+    N_ += m_.lasting;
+    S_ += m_.lasting;
+    S_inverse_ = Inverse(S_);
+  }
+}
+
+template <int kRows>
 [[gnu::flatten]] SlotVector KalmanCorrection<kRows>::Gain() const {
   SlotVector increment;
   const Row<kRows> weighted = S_inverse_ * z_;

@@ -26,6 +26,9 @@ class KalmanCorrection {
   /// conservative for more (S grows as a whole).
   void Inflate(double target);
 
+  /// Adds the measurement's lasting noise, once its NIS has been judged. One row.
+  void AddLasting();
+
   /// K z with K = C S⁻¹.
   SlotVector Gain() const;
 

@@ -69,6 +69,9 @@ class Linearisation {
 
   Vector z = Vector::Zero();
   Matrix N = Matrix::Zero();
+  /// Beside N, of a single row: what an error that lasts over many samples adds as white noise. The
+  /// gain weighs it; one sample's NIS does not.
+  double lasting = 0.0;
 
   void Plus(Slot slot) { Append(slot, TermKind::kPlus); }
   void Minus(Slot slot) { Append(slot, TermKind::kMinus); }

@@ -31,12 +31,13 @@ using Eigen::Vector3d;
   P_.AddBiases(J, noise, dt);
 }
 
-[[gnu::flatten]] void RightInvariantEkf::AddCurvature(const Vector3d& q, double samples,
-                                     Linearisation<1>& m) const {
+[[gnu::flatten]] void RightInvariantEkf::AddCurvature(const Vector3d& r, double samples,
+                                                      Linearisation<1>& m) const {
   constexpr double kNegligible = 1e-4;  // of the variance
   const LaneMatrix& tt = P_(kThetaSlot, kThetaSlot);
   const LaneMatrix& tp = P_(kThetaSlot, kPositionSlot);
   const LaneMatrix& pp = P_(kPositionSlot, kPositionSlot);
+  const Vector3d q = x_.p + x_.R * r;
   const double tilt = tt(0, 0) + tt(1, 1), turn = tilt + tt(2, 2);
   const double most = 2.0 * (pp(0, 0) + pp(1, 1) + q.squaredNorm() * turn);
   if (samples * tilt * most < kNegligible * m.N(0)) return;
@@ -44,13 +45,15 @@ using Eigen::Vector3d;
   const Eigen::Matrix3d T = ToEigen(tt), q_cross = Skew(q);
   const Eigen::Matrix3d td = ToEigen(tp) + T * q_cross;  // of θ and δ
   const Eigen::Matrix3d dd = ToEigen(pp) - q_cross * ToEigen(tp) + td.transpose() * q_cross;
-  // Isserlis: of products of Gaussian factors.
+  // Isserlis: of products of Gaussian factors. The mean stays in the innovation: a start that is
+  // exact would be moved by it.
   const double mean = td(0, 1) - td(1, 0);
   const double x_y = T(0, 0) * dd(1, 1) + td(0, 1) * td(0, 1);
   const double y_x = T(1, 1) * dd(0, 0) + td(1, 0) * td(1, 0);
   const double both = T(0, 1) * dd(1, 0) + td(0, 0) * td(1, 1);
-  m.z(0) -= 0.5 * mean;
-  m.N(0) += samples * 0.25 * (x_y + y_x - 2.0 * both);
+  const double square = 0.25 * (x_y + y_x - 2.0 * both + mean * mean);
+  m.N(0) += square;
+  m.lasting = (samples - 1.0) * square;
 }
 
 void RightInvariantEkf::Retract(const SlotVector& increment) {

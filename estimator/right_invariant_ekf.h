@@ -32,16 +32,16 @@ class RightInvariantEkf : public ErrorState<ErrorForm::kRightInvariant> {
     return m;
   }
 
-  /// What a height of the point q leaves out when it is linearised. An error (θ, ξ_p) moves the
-  /// point by δ = ξ_p + θ × q, and its height to second order by
+  /// What a height of the point q = p + R r leaves out when it is linearised. An error (θ, ξ_p)
+  /// moves the point by δ = ξ_p + θ × q, and its height to second order by
   ///     c = ½ e_zᵀ (θ × δ)
-  /// beside −e_zᵀ δ: exp(−θ) q − J(−θ) ξ_p, expanded. Mean and variance of c under P are those of
-  /// products of Gaussians. The mean goes to the innovation of `m`; the variance to its noise,
-  /// times the `samples` over which c is one and the same error: as white noise of its own variance
-  /// it would be averaged away. This counts where tilt and position are uncertain, as they are
-  /// after half a minute without a velocity; then the filter is over-confident without it. `m` stays
-  /// as it is where that is surely below a hundredth of its noise.
-  void AddCurvature(const Eigen::Vector3d& q, double samples, Linearisation<1>& m) const;
+  /// beside −e_zᵀ δ: exp(−θ) q − J(−θ) ξ_p, expanded. Its mean square under P, that of products of
+  /// Gaussians, is added to the noise of `m`, and to what lasts as often as there are further
+  /// `samples` over which c is one and the same error: as white noise it would be averaged away.
+  /// This counts where tilt and position are uncertain, as they are
+  /// after half a minute without a velocity; then the filter is over-confident without it. `m`
+  /// stays as it is where that is surely below a hundredth of its noise.
+  void AddCurvature(const Eigen::Vector3d& r, double samples, Linearisation<1>& m) const;
 
   /// X⁺ = exp(ξ) X̂ and b⁺ = b̂ + ζ for the increment K z.
   void Retract(const SlotVector& increment);

@@ -56,8 +56,8 @@ class CsvStream {
   TimeColumn time_;
   std::optional<TimeColumn> arrival_;
   std::optional<std::size_t> interval_;
-  std::vector<std::size_t> columns_;       ///< of the sample, in the order of its kind
-  std::vector<std::size_t> more_columns_;  ///< those that need not be there
+  std::vector<std::size_t> columns_;                ///< of the sample, in the order of its kind
+  std::vector<std::size_t> more_columns_;           ///< those that need not be there
   std::optional<std::size_t> valid_, over_ground_;  ///< of a velocity
   models::TimeNs last_ns_ = -1, now_ns_ = 0;
   models::EncoderVector last_angle_;

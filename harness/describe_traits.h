@@ -27,8 +27,7 @@ struct ListTraits<std::array<E, N>> {
   using Element = E;
 };
 template <int N>
-  requires(N > 0)
-struct ListTraits<Eigen::Matrix<double, N, 1>> {
+requires(N > 0) struct ListTraits<Eigen::Matrix<double, N, 1>> {
   static constexpr bool kIsList = true;
   static constexpr std::size_t kSize = N;
   using Element = double;

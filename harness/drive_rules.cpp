@@ -39,16 +39,16 @@ class DriveRules {
   void CheckWorld() const {
     const sim::TerrainConfig& t = s_.world.terrain;
     book_.Require(t.kind != sim::TerrainKind::kRough || t.shortest_wave_m <= t.longest_wave_m,
-            "/world/terrain/longest_wave_m",
-            "at least shortest_wave_m, " + NumberText(t.shortest_wave_m));
+                  "/world/terrain/longest_wave_m",
+                  "at least shortest_wave_m, " + NumberText(t.shortest_wave_m));
     book_.Require(t.kind != sim::TerrainKind::kKerbs || t.kerb_spacing_m >= t.LeastKerbSpacing(),
-            "/world/terrain/kerb_spacing_m",
-            "at least " + NumberText(t.LeastKerbSpacing()) +
-                ", the kerb's width and room for the robot");
+                  "/world/terrain/kerb_spacing_m",
+                  "at least " + NumberText(t.LeastKerbSpacing()) +
+                      ", the kerb's width and room for the robot");
     for (std::size_t i = 0; i < s_.world.patches.size(); ++i) {
       const auto& box = s_.world.patches[i].box_m;
       book_.Require(box[2] > 0 && box[3] > 0, "/world/patches/" + std::to_string(i) + "/box_m",
-              "[centre x, centre y, size x, size y] with sizes above 0");
+                    "[centre x, centre y, size x, size y] with sizes above 0");
     }
   }
 
@@ -60,10 +60,11 @@ class DriveRules {
       };
       const auto& points = m.waypoints_m;
       book_.Require(std::any_of(points.begin(), points.end(), elsewhere), "/motion/waypoints_m",
-              "at least one point [x, y] other than the origin");
+                    "at least one point [x, y] other than the origin");
     }
     if (m.path != sim::PathKind::kVelocityProfile) return;
-    book_.Require(!m.profile.empty(), "/motion/profile", "at least one row [t_s, v_m_s, yaw_rate_rad_s]");
+    book_.Require(!m.profile.empty(), "/motion/profile",
+                  "at least one row [t_s, v_m_s, yaw_rate_rad_s]");
     double last = -1.0;
     for (std::size_t i = 0; i < m.profile.size(); ++i) {
       const auto& row = m.profile[i];
@@ -90,8 +91,9 @@ class DriveRules {
         const std::string place = path + "/" + std::to_string(i);
         const std::string& joint = (*side)[i];
         book_.RequireOneOf(joint, joints, place, "joint in the URDF called");
-        book_.Require(!Holds(joints, joint) || Holds(wheels, joint), place,
-                fmt::format("a continuous joint of {} ({})", base_link, fmt::join(wheels, ", ")));
+        book_.Require(
+            !Holds(joints, joint) || Holds(wheels, joint), place,
+            fmt::format("a continuous joint of {} ({})", base_link, fmt::join(wheels, ", ")));
         book_.Require(seen.insert(joint).second, place, "each joint once");
       }
       book_.Require(!side->empty(), path, "at least one joint");

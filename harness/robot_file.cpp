@@ -96,8 +96,7 @@ Robot MakeRobot(const Scenario& scenario, const models::UrdfRobot& urdf) {
   for (const auto& [name, sensor] : scenario.sensors) {
     const models::Pose X_BS = urdf.LinkPose(sensor.frame);
     const auto id = static_cast<models::SensorId>(robot.sensors.size());
-    robot.nominal.sensors.push_back(
-        {name, sim::KindOf(sensor.errors), X_BS, PeriodOf(sensor)});
+    robot.nominal.sensors.push_back({name, sim::KindOf(sensor.errors), X_BS, PeriodOf(sensor)});
     const bool encoders = robot.nominal.sensors.back().kind == models::SensorKind::kEncoders;
     robot.channels.push_back(encoders ? robot.joints : std::vector<std::string>());
     robot.sensors.push_back(

@@ -17,7 +17,7 @@ namespace reckon::render {
 struct View {
   Eigen::Vector3d target = Eigen::Vector3d::Zero();
   double distance_m = 3.0;
-  double azimuth_deg = 45.0;    ///< of the direction in which it looks, from x towards y
+  double azimuth_deg = 45.0;     ///< of the direction in which it looks, from x towards y
   double elevation_deg = -20.0;  ///< negative: it looks down
 };
 

@@ -51,8 +51,8 @@ class EglContext : public GlContext {
     Require(egl_.Get<unsigned(void*, int*, int*)>("eglInitialize")(display_, &major, &minor) != 0,
             "EGL can't be initialised");
     Require(egl_.Get<unsigned(unsigned)>("eglBindAPI")(kOpenGlApi) != 0, "EGL has no OpenGL");
-    const int wanted[] = {kSurfaceType, kPbufferBit, kRenderableType, kOpenGlBit,
-                          kDepthSize,   24,          kNone};
+    const int wanted[] = {kSurfaceType, kPbufferBit, kRenderableType, kOpenGlBit, kDepthSize,
+                          24,           kNone};
     void* config = nullptr;
     int count = 0;
     using Choose = unsigned(void*, const int*, void**, int, int*);
@@ -74,7 +74,8 @@ class EglContext : public GlContext {
   void Close() {
     if (display_ == nullptr) return;
     MakeCurrent(nullptr);
-    if (context_ != nullptr) egl_.Get<unsigned(void*, void*)>("eglDestroyContext")(display_, context_);
+    if (context_ != nullptr)
+      egl_.Get<unsigned(void*, void*)>("eglDestroyContext")(display_, context_);
     egl_.Get<unsigned(void*)>("eglTerminate")(display_);
   }
 
@@ -100,7 +101,7 @@ class OsMesaContext : public GlContext {
     if (context_ == nullptr) throw std::runtime_error("OSMesa makes no context");
     using Make = unsigned char(void*, void*, unsigned, int, int);
     if (mesa_.Get<Make>("OSMesaMakeCurrent")(context_, pixels_.data(), kUnsignedByte, width,
-                                              height) == 0) {
+                                             height) == 0) {
       mesa_.Get<void(void*)>("OSMesaDestroyContext")(context_);
       throw std::runtime_error("OSMesa's context can't be used");
     }
@@ -127,7 +128,8 @@ std::unique_ptr<GlContext> GlContext::Make(const std::string& gl, int width, int
     }
   };
   if (auto egl = attempt("egl", [] { return std::make_unique<EglContext>(); })) return egl;
-  if (auto mesa = attempt("osmesa", [&] { return std::make_unique<OsMesaContext>(width, height); })) {
+  if (auto mesa =
+          attempt("osmesa", [&] { return std::make_unique<OsMesaContext>(width, height); })) {
     return mesa;
   }
   throw std::runtime_error("nothing to draw with (" +

@@ -6,8 +6,8 @@
 namespace reckon::render {
 
 /// An OpenGL context without a screen, current on the thread that makes it. Neither library is
-/// linked: EGL (surfaceless) is tried first, then OSMesa; where no context comes of EGL it is closed
-/// again before OSMesa is opened, since the two do not live in one process.
+/// linked: EGL (surfaceless) is tried first, then OSMesa; where no context comes of EGL it is
+/// closed again before OSMesa is opened, since the two do not live in one process.
 class GlContext {
  public:
   virtual ~GlContext() = default;

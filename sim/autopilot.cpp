@@ -16,18 +16,18 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 Autopilot::Autopilot(const std::string& name, const AutopilotConfig& config) : config_(config) {
-  const std::pair<const char*, double> gains[] = {{"surge_n_s_m", config.surge_n_s_m},
-                                                  {"surge_n_m", config.surge_n_m},
-                                                  {"sway_n_s_m", config.sway_n_s_m},
-                                                  {"sway_n_m", config.sway_n_m},
-                                                  {"heave_n_s_m", config.heave_n_s_m},
-                                                  {"heave_n_m", config.heave_n_m},
-                                                  {"tilt_n_m_rad", config.tilt_n_m_rad},
-                                                  {"tilt_n_m_s", config.tilt_n_m_s},
-                                                  {"yaw_n_m_s", config.yaw_n_m_s},
-                                                  {"heading_1_s", config.heading_1_s},
-                                                  {"max_yaw_rate_rad_s",
-                                                   config.max_yaw_rate_rad_s}};
+  const std::pair<const char*, double> gains[] = {
+      {"surge_n_s_m", config.surge_n_s_m},
+      {"surge_n_m", config.surge_n_m},
+      {"sway_n_s_m", config.sway_n_s_m},
+      {"sway_n_m", config.sway_n_m},
+      {"heave_n_s_m", config.heave_n_s_m},
+      {"heave_n_m", config.heave_n_m},
+      {"tilt_n_m_rad", config.tilt_n_m_rad},
+      {"tilt_n_m_s", config.tilt_n_m_s},
+      {"yaw_n_m_s", config.yaw_n_m_s},
+      {"heading_1_s", config.heading_1_s},
+      {"max_yaw_rate_rad_s", config.max_yaw_rate_rad_s}};
   for (const auto& [key, gain] : gains) {
     if (gain >= 0.0 && std::isfinite(gain)) continue;
     throw std::invalid_argument(name + ": " + key + " must be zero or positive");

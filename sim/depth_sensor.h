@@ -16,8 +16,9 @@ namespace reckon::sim {
 /// A pressure sensor: with z_S the height of its own origin in W, a sample is
 ///     y = r round((−z_S ρ/ρ_assumed + b + d + n) / r),   r = resolution_m,
 /// unquantised if r is zero; b ~ N(0, offset_m²) is drawn once a run, the surface's drift d is a
-/// random walk from zero, n is white with the configured σ per sample. Where the sensor's axes point
-/// does not matter. Draws come from "<name>.noise" (index = sample), "<name>.drift" (likewise) and
+/// random walk from zero, n is white with the configured σ per sample. Where the sensor's axes
+/// point does not matter. Draws come from "<name>.noise" (index = sample), "<name>.drift"
+/// (likewise) and
 /// "<name>.offset".
 class DepthSensor : public Sensor {
  public:

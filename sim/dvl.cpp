@@ -82,7 +82,8 @@ models::TimeNs Dvl::PeriodNs() const {
     rate_hz = std::min(config_.timing.rate_hz, rate);
     if (altitude_m_ <= altitude) break;
   }
-  return std::max<models::TimeNs>(1, std::llround(1.0 / (rate_hz * models::Seconds(step_ns_)))) * step_ns_;
+  return std::max<models::TimeNs>(1, std::llround(1.0 / (rate_hz * models::Seconds(step_ns_)))) *
+         step_ns_;
 }
 
 Vector3d Dvl::VelocityIn(const MotionWindow& motion) const {
@@ -157,8 +158,8 @@ void Dvl::Listen(const MotionWindow& motion) {
     if (!echo.answers || echo.along_m_s || echo.t_s > t_s) continue;
     const Vector3d back = now + (t_s - echo.t_s) / step_s * (last_m_s_ - now);
     const double noise = sigma > 0.0 ? sigma * noise_draws_.Normal(i, pings_) : 0.0;
-    echo.along_m_s = 0.5 * gain_ * beams_.directions()[i].dot(sent_m_s_ + back) + offset_m_s_[i] +
-                     noise;
+    echo.along_m_s =
+        0.5 * gain_ * beams_.directions()[i].dot(sent_m_s_ + back) + offset_m_s_[i] + noise;
   }
   last_m_s_ = now;
 }
@@ -176,8 +177,7 @@ models::BodyVelocitySample Dvl::Solution() const {
   const auto solution = beams_.Solve({along.data(), count}, sigma);
   sample.valid = solution && solution->beams >= config_.min_beams;
   sample.v_WS_S = sample.valid ? solution->velocity_m_s : Vector3d::Constant(kNan);
-  sample.covariance =
-      sample.valid ? solution->covariance_m2_s2 : Eigen::Matrix3d::Constant(kNan);
+  sample.covariance = sample.valid ? solution->covariance_m2_s2 : Eigen::Matrix3d::Constant(kNan);
   sample.figure_of_merit_m_s = sample.valid ? solution->disagreement_m_s : kNan;
   return sample;
 }

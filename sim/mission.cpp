@@ -31,9 +31,8 @@ void Check(const MissionConfig& m) {
   Require(MissionConfig::kLaps, m.laps, "laps");
   Require(MissionConfig::kLaps, m.turns, "turns");
   Require(MissionConfig::kTracks, m.tracks, "tracks");
-  const std::pair<const char*, double> depths[] = {{"start_depth_m", m.start_depth_m},
-                                                   {"depth_m", m.depth_m},
-                                                   {"end_depth_m", m.end_depth_m}};
+  const std::pair<const char*, double> depths[] = {
+      {"start_depth_m", m.start_depth_m}, {"depth_m", m.depth_m}, {"end_depth_m", m.end_depth_m}};
   for (const auto& [key, depth] : depths) {
     if (!std::isfinite(depth)) Require(MissionConfig::kDepth, depth, key);
   }
@@ -43,8 +42,8 @@ void Check(const MissionConfig& m) {
 }
 
 Points Square(const MissionConfig& m, double left) {
-  const Vector3d corners[] = {{0, 0, 0}, {m.side_m, 0, 0}, {m.side_m, left * m.side_m, 0},
-                              {0, left * m.side_m, 0}};
+  const Vector3d corners[] = {
+      {0, 0, 0}, {m.side_m, 0, 0}, {m.side_m, left * m.side_m, 0}, {0, left * m.side_m, 0}};
   Points points;
   const double sides = 4.0 * m.laps;
   for (int i = 0; i <= std::floor(sides); ++i) points.push_back(corners[i % 4]);
@@ -129,10 +128,11 @@ std::optional<std::string> MissionTrouble(const std::vector<Leg>& legs,
       const double bottom = depth_at(p.x(), p.y());
       char text[200];
       if (!(-p.z() > room_m)) {
-        std::snprintf(text, sizeof text,
-                      "it leads above the surface: %.3g m deep at x = %.3g m, y = %.3g m, where more "
-                      "than %.3g m keep the vehicle under water",
-                      -p.z(), p.x(), p.y(), room_m);
+        std::snprintf(
+            text, sizeof text,
+            "it leads above the surface: %.3g m deep at x = %.3g m, y = %.3g m, where more "
+            "than %.3g m keep the vehicle under water",
+            -p.z(), p.x(), p.y(), room_m);
         return text;
       }
       if (!(-p.z() < bottom)) {

@@ -21,17 +21,17 @@ struct MissionConfig {
   double start_s = 1.0;  ///< it holds its place until then
   double start_depth_m = 1.0;
   double depth_m = 5.0;
-  double speed_m_s = 0.5;     ///< over ground
-  double hold_s = 10.0;       ///< dive: at depth, before it returns
-  double side_m = 10.0;       ///< square
-  double laps = 1.0;          ///< square
-  double length_m = 20.0;     ///< lawnmower: of a track, along x
-  double spacing_m = 4.0;     ///< lawnmower: from track to track, along y
-  int tracks = 6;             ///< lawnmower
-  double radius_m = 4.0;      ///< helix
-  double turns = 3.0;         ///< helix
-  double end_depth_m = 8.0;   ///< helix: of its last point
-  bool clockwise = false;     ///< square, lawnmower, helix: to the right, seen from above
+  double speed_m_s = 0.5;    ///< over ground
+  double hold_s = 10.0;      ///< dive: at depth, before it returns
+  double side_m = 10.0;      ///< square
+  double laps = 1.0;         ///< square
+  double length_m = 20.0;    ///< lawnmower: of a track, along x
+  double spacing_m = 4.0;    ///< lawnmower: from track to track, along y
+  int tracks = 6;            ///< lawnmower
+  double radius_m = 4.0;     ///< helix
+  double turns = 3.0;        ///< helix
+  double end_depth_m = 8.0;  ///< helix: of its last point
+  bool clockwise = false;    ///< square, lawnmower, helix: to the right, seen from above
   std::vector<std::array<double, 3>> waypoints_m = {};  ///< [x, y, depth]
 
   static constexpr Range kDepth = AboveUpTo(0, 11000), kSpeed = AboveUpTo(0, 5);

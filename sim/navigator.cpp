@@ -11,13 +11,13 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kLookAhead = 1.0;      // m
-constexpr double kSearchWindow = 1.0;   // m, less than the distance to another branch of the route
-constexpr double kNear = 0.3;           // m: closer than this no heading follows from the target
-constexpr double kHold = 0.4;           // 1/s: velocity towards a point for the distance to it
-constexpr double kMaxClimb = 0.2;       // m/s
-constexpr double kArrived = 0.25;       // m
-constexpr double kSlowest = 0.2;        // of the speed, while it turns
+constexpr double kLookAhead = 1.0;     // m
+constexpr double kSearchWindow = 1.0;  // m, less than the distance to another branch of the route
+constexpr double kNear = 0.3;          // m: closer than this no heading follows from the target
+constexpr double kHold = 0.4;          // 1/s: velocity towards a point for the distance to it
+constexpr double kMaxClimb = 0.2;      // m/s
+constexpr double kArrived = 0.25;      // m
+constexpr double kSlowest = 0.2;       // of the speed, while it turns
 
 }  // namespace
 
@@ -55,8 +55,7 @@ Course Navigator::Update(double t_s, const models::Pose& X_WB) {
   const Vector3d target = legs_[leg_].route.At(ahead);
   Course course;
   course.velocity_m_s.head<2>() = HorizontalVelocity(X_WB, target);
-  course.velocity_m_s.z() =
-      std::clamp(kHold * (target.z() - X_WB.p.z()), -kMaxClimb, kMaxClimb);
+  course.velocity_m_s.z() = std::clamp(kHold * (target.z() - X_WB.p.z()), -kMaxClimb, kMaxClimb);
   course.heading_rad = heading_rad_;
   return course;
 }

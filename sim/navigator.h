@@ -31,8 +31,8 @@ class Navigator {
   double start_s_, speed_m_s_;
   std::vector<Leg> legs_;
   std::size_t leg_ = 0;
-  double progress_m_ = 0.0;   ///< along the leg, never backwards
-  double arrived_s_ = -1.0;   ///< at the end of the leg; negative: not yet
+  double progress_m_ = 0.0;  ///< along the leg, never backwards
+  double arrived_s_ = -1.0;  ///< at the end of the leg; negative: not yet
   double heading_rad_ = 0.0;
 };
 

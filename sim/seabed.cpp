@@ -15,7 +15,8 @@ const WaterConfig& Checked(const WorldConfig& config) {
   RequireIn(WaterConfig::kSoundSpeed, water.sound_speed_m_s, "water", "sound_speed_m_s");
   RequireIn(WaterConfig::kDepth, water.depth_m, "water", "depth_m");
   for (const FeatureConfig& feature : water.features) {
-    for (const double at : feature.at_m) RequireIn(FeatureConfig::kAt, at, "water", "a feature's at_m");
+    for (const double at : feature.at_m)
+      RequireIn(FeatureConfig::kAt, at, "water", "a feature's at_m");
     for (const double size : feature.size_m) {
       RequireIn(FeatureConfig::kSize, size, "water", "a feature's size_m");
     }

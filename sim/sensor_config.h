@@ -93,19 +93,19 @@ struct DvlConfig {
   std::string grade = "ideal";
   double beam_angle_deg = 30.0;  ///< from the vertical
   std::vector<double> azimuths_deg{45, 135, 225, 315};
-  double noise_m_per_s = 0.001;         ///< σ of one beam's velocity
-  double water_noise_m_per_s = 0.0;     ///< the same over water
-  double offset_m_per_s = 0.0;          ///< σ of each beam's constant offset drawn once a run
-  double scale = 0.0;                   ///< σ of the scale error drawn once a run
-  double altitude_min_m = 0.1;          ///< of what a beam meets: range times cos θ
+  double noise_m_per_s = 0.001;      ///< σ of one beam's velocity
+  double water_noise_m_per_s = 0.0;  ///< the same over water
+  double offset_m_per_s = 0.0;       ///< σ of each beam's constant offset drawn once a run
+  double scale = 0.0;                ///< σ of the scale error drawn once a run
+  double altitude_min_m = 0.1;       ///< of what a beam meets: range times cos θ
   double altitude_max_m = 100.0;
-  double max_incidence_deg = 60.0;      ///< a beam that meets the ground flatter gets no echo
-  double max_speed_m_s = 100.0;         ///< faster than this no beam answers
-  double dropout = 0.0;                 ///< probability that a beam gets no echo
-  int min_beams = 3;                    ///< of those that a velocity needs
+  double max_incidence_deg = 60.0;  ///< a beam that meets the ground flatter gets no echo
+  double max_speed_m_s = 100.0;     ///< faster than this no beam answers
+  double dropout = 0.0;             ///< probability that a beam gets no echo
+  int min_beams = 3;                ///< of those that a velocity needs
   std::vector<std::array<double, 2>> rate_by_altitude = {};  ///< rows [up to this altitude m, Hz]
-  double assumed_sound_speed_m_s = 0.0;  ///< 0: what it is
-  bool water_track = false;  ///< without the ground it reports its velocity relative to the water
+  double assumed_sound_speed_m_s = 0.0;                      ///< 0: what it is
+  bool water_track = false;    ///< without the ground it reports its velocity relative to the water
   double water_layer_m = 5.0;  ///< how far under it that water is
 
   static constexpr Range kBeamAngle{1, 89}, kIncidence = AboveUpTo(0, 90);

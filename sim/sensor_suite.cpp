@@ -22,8 +22,8 @@ struct Maker {
   const Environment& environment;
 
   std::unique_ptr<Sensor> operator()(const ImuConfig& config) const {
-    return std::make_unique<Imu>(spec.name, spec.id, spec.X_BS, config, seed,
-                                 environment.step_ns, environment.gravity_m_s2);
+    return std::make_unique<Imu>(spec.name, spec.id, spec.X_BS, config, seed, environment.step_ns,
+                                 environment.gravity_m_s2);
   }
   std::unique_ptr<Sensor> operator()(const EncoderConfig& config) const {
     return std::make_unique<Encoders>(spec.name, spec.id, config, seed, environment.step_ns);
@@ -33,8 +33,7 @@ struct Maker {
                                                 environment.step_ns);
   }
   std::unique_ptr<Sensor> operator()(const DepthConfig& config) const {
-    return std::make_unique<DepthSensor>(spec.name, spec.id, spec.X_BS, config, seed,
-                                         environment);
+    return std::make_unique<DepthSensor>(spec.name, spec.id, spec.X_BS, config, seed, environment);
   }
   std::unique_ptr<Sensor> operator()(const PoseConfig& config) const {
     return std::make_unique<PoseSensor>(spec.name, spec.id, spec.X_BS, config, seed,

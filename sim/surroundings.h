@@ -12,7 +12,8 @@ struct RayHit {
   double cos_incidence = 1.0;  ///< of the angle between the ray and the surface's normal
 };
 
-/// What lies around the robot and does not move, seen along rays; the robot itself is no part of it.
+/// What lies around the robot and does not move, seen along rays; the robot itself is no part of
+/// it.
 class Surroundings {
  public:
   virtual ~Surroundings() = default;

@@ -85,9 +85,9 @@ struct WorldConfig {
   double settle_s = 1.0;  ///< the robot comes to rest before t = 0
   TerrainConfig terrain;
   std::vector<PatchConfig> patches;
-  MotionConfig motion;                ///< of a robot on the ground
-  std::optional<WaterConfig> water;   ///< the sea, of which `terrain` is the bottom
-  MissionConfig mission;              ///< of an underwater vehicle
+  MotionConfig motion;               ///< of a robot on the ground
+  std::optional<WaterConfig> water;  ///< the sea, of which `terrain` is the bottom
+  MissionConfig mission;             ///< of an underwater vehicle
   ActualConfig actual;
 
   static constexpr Range kPhysicsStep{1e-5, 0.005};

@@ -93,11 +93,13 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Case{"MotionOfWheels", "robot: bluerov2\nmotion: {path: square}\n",
              "sc.yaml:2:9: error: '/motion': this robot swims: its `mission:` says where it goes"},
-        Case{"MissionOfWheels", "robot: husky\nmission: {kind: hover}\n",
-             "sc.yaml:2:10: error: '/mission': this robot drives: its `motion:` says where it goes"},
-        Case{"UnderTheSeabed", "robot: bluerov2\nworld: {water: {depth_m: 4}}\n",
-             "sc.yaml:1:1: error: '/mission': it leads under the seabed: 4 m deep at x = 0 m, y = 0 "
-             "m, where the bottom lies 4 m deep"},
+        Case{
+            "MissionOfWheels", "robot: husky\nmission: {kind: hover}\n",
+            "sc.yaml:2:10: error: '/mission': this robot drives: its `motion:` says where it goes"},
+        Case{
+            "UnderTheSeabed", "robot: bluerov2\nworld: {water: {depth_m: 4}}\n",
+            "sc.yaml:1:1: error: '/mission': it leads under the seabed: 4 m deep at x = 0 m, y = 0 "
+            "m, where the bottom lies 4 m deep"},
         Case{"AboveTheSurface", "robot: bluerov2\nmission: {start_depth_m: -1}\n",
              "sc.yaml:2:10: error: '/mission': it leads above the surface: -1 m deep at x = 0 m, y "
              "= 0 m, where more than 0 m keep the vehicle under water"},
@@ -105,7 +107,8 @@ INSTANTIATE_TEST_SUITE_P(
              "sc.yaml:2:33: error: '/sensors/dvl/beam_angle_deg': expected a finite number from 1 "
              "to 89, found '0'"},
         Case{"TwoBeams", "robot: bluerov2\nsensors: {dvl: {azimuths_deg: [0, 90]}}\n",
-             "sc.yaml:2:31: error: '/sensors/dvl/azimuths_deg': beams: azimuths_deg must be 3 to 8 beams"},
+             "sc.yaml:2:31: error: '/sensors/dvl/azimuths_deg': beams: azimuths_deg must be 3 to 8 "
+             "beams"},
         Case{"LogOnLand", "sensors: {dvl: {type: dvl, frame: base_link}}\n",
              "sc.yaml:1:23: error: '/sensors/dvl/type': a Doppler log needs a sea around it"},
         Case{"WaterOnLand", "world: {water: {depth_m: 4}}\n",

@@ -95,8 +95,8 @@ std::map<std::string, Paired> InvariantOverMultiplicative(
   std::map<std::string, Paired> paired;
   ForSeeds(scenario, kSeeds, [&](int, const auto& tracks) {
     const auto add = [&](const char* name, const auto& error) {
-      paired[name].log_ratio.push_back(std::log(RmsOf(tracks.at("riekf"), error) /
-                                                RmsOf(tracks.at("mekf"), error)));
+      paired[name].log_ratio.push_back(
+          std::log(RmsOf(tracks.at("riekf"), error) / RmsOf(tracks.at("mekf"), error)));
     };
     add("position", Position);
     add("tilt", Tilt);

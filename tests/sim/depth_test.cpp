@@ -91,8 +91,8 @@ TEST(Depth, ReadsTheWeightOfTheWaterItTakesItToBe) {
     models::Pose At(double) const { return {Eigen::Matrix3d::Identity(), {0, 0, -20}}; }
   };
   // Calibrated in fresh water, it takes 20 m of the sea for 1025 / 997 of that.
-  DepthSensor sensor("depth", 0, {},
-                     {.timing = {.rate_hz = 10.0}, .assumed_density_kg_m3 = 997.0}, 1, {});
+  DepthSensor sensor("depth", 0, {}, {.timing = {.rate_hz = 10.0}, .assumed_density_kg_m3 = 997.0},
+                     1, {});
   EXPECT_NEAR(DepthOf(Watch(sensor, Deep{}, kMs, 100 * kMs).at(0)), 20.0 * 1025 / 997, 1e-12);
 }
 

@@ -43,9 +43,7 @@ struct Steady {
   models::Pose At(double t) const { return {Eigen::Matrix3d::Identity(), p + t * v}; }
 };
 
-BodyVelocitySample SampleOf(const Measurement& m) {
-  return std::get<BodyVelocitySample>(m.sample);
-}
+BodyVelocitySample SampleOf(const Measurement& m) { return std::get<BodyVelocitySample>(m.sample); }
 
 DvlConfig Quiet() {
   DvlConfig config;
@@ -305,7 +303,9 @@ TEST_F(DvlTest, RefusesWhatNoLogIs) {
   EXPECT_TRUE(names(refusal([](auto& c) { c.altitude_max_m = 0.01; }), "altitude_max_m"));
   EXPECT_TRUE(names(refusal([](auto& c) { c.timing.rate_hz = 0; }), "rate_hz"));
   EXPECT_TRUE(names(refusal([](auto& c) { c.min_beams = 2; }), "min_beams"));
-  EXPECT_TRUE(names(refusal([](auto& c) { c.rate_by_altitude = {{5, 2}, {4, 2}}; }),
+  EXPECT_TRUE(names(refusal([](auto& c) {
+                      c.rate_by_altitude = {{5, 2}, {4, 2}};
+                    }),
                     "rate_by_altitude"));
   environment_.surroundings = nullptr;
   EXPECT_EQ(Refusal(Quiet()), "sensor 'dvl': a Doppler log needs a sea around it");

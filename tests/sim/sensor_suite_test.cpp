@@ -203,7 +203,8 @@ TEST(SensorSuite, AppliesFaultsToTheNamedSensor) {
 
 TEST(SensorSuite, RefusesDuplicateNamesUnknownFaultTargetsAndOddSteps) {
   const auto refusal = [](const std::vector<SensorSpec>& sensors,
-                          const std::vector<FaultConfig>& faults, models::TimeNs step_ns) -> std::string {
+                          const std::vector<FaultConfig>& faults,
+                          models::TimeNs step_ns) -> std::string {
     try {
       SensorSuite(sensors, faults, 1, Environment{.step_ns = step_ns});
     } catch (const std::invalid_argument& error) {
@@ -211,7 +212,8 @@ TEST(SensorSuite, RefusesDuplicateNamesUnknownFaultTargetsAndOddSteps) {
     }
     return "";
   };
-  EXPECT_EQ(refusal({ImuSpec("imu"), ImuSpec("imu")}, {}, 1'000'000), "two sensors are called 'imu'");
+  EXPECT_EQ(refusal({ImuSpec("imu"), ImuSpec("imu")}, {}, 1'000'000),
+            "two sensors are called 'imu'");
   const std::vector<FaultConfig> faults{{.sensor = "lidar"}};
   EXPECT_EQ(refusal({ImuSpec("imu")}, faults, 1'000'000),
             "a fault names the sensor 'lidar', which the robot does not have");

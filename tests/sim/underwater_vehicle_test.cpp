@@ -42,9 +42,15 @@ std::string Message(const std::function<void()>& action) {
 /// Nobody steers.
 RobotConfig Adrift() {
   RobotConfig robot = BlueRov2();
-  std::get<UnderwaterConfig>(robot.drive).autopilot = {
-      .surge_n_s_m = 0, .surge_n_m = 0, .sway_n_s_m = 0, .sway_n_m = 0, .heave_n_s_m = 0,
-      .heave_n_m = 0, .tilt_n_m_rad = 0, .tilt_n_m_s = 0, .yaw_n_m_s = 0};
+  std::get<UnderwaterConfig>(robot.drive).autopilot = {.surge_n_s_m = 0,
+                                                       .surge_n_m = 0,
+                                                       .sway_n_s_m = 0,
+                                                       .sway_n_m = 0,
+                                                       .heave_n_s_m = 0,
+                                                       .heave_n_m = 0,
+                                                       .tilt_n_m_rad = 0,
+                                                       .tilt_n_m_s = 0,
+                                                       .yaw_n_m_s = 0};
   return robot;
 }
 
@@ -114,8 +120,8 @@ TEST(UnderwaterVehicle, FliesItsMissions) {
       for (double s = 0.0; s <= leg.route.length(); s += 0.5) {
         const Vector3d point = leg.route.At(s);
         while (at < track.size() && (track[at].X_WB.p - point).norm() > 0.5) ++at;
-        ASSERT_LT(at, track.size()) << "mission " << static_cast<int>(kind) << " misses "
-                                    << point.transpose();
+        ASSERT_LT(at, track.size())
+            << "mission " << static_cast<int>(kind) << " misses " << point.transpose();
       }
     }
     const Vector3d end = LegsOf(config.mission).back().route.At(1e9);
@@ -125,8 +131,8 @@ TEST(UnderwaterVehicle, FliesItsMissions) {
 
 TEST(UnderwaterVehicle, TouchesTheBottomAndLeavesIt) {
   WorldConfig config = Sea();
-  config.mission = {.kind = MissionKind::kDive, .start_depth_m = 8.0, .depth_m = 9.95,
-                    .hold_s = 20.0};
+  config.mission = {
+      .kind = MissionKind::kDive, .start_depth_m = 8.0, .depth_m = 9.95, .hold_s = 20.0};
   const auto track = Fly(BlueRov2(), config, 90.0);
   double lowest = 0.0, rested_s = 0.0;
   for (const auto& truth : track) {
@@ -178,11 +184,12 @@ TEST(UnderwaterVehicle, RefusesWhatCantBe) {
   names(refusal([](auto&, auto& w) { w.mission.depth_m = 11.0; }), "under the seabed");
   names(refusal([](auto&, auto& w) { w.mission.start_depth_m = 0.1; }), "above the surface");
   // A boulder lies where the mission goes.
-  names(refusal([](auto&, auto& w) {
-          w.mission.kind = MissionKind::kSquare;
-          w.water->features = {{.kind = FeatureKind::kBoulder, .at_m = {5, 0}, .size_m = {4, 4, 12}}};
-        }),
-        "under the seabed");
+  names(
+      refusal([](auto&, auto& w) {
+        w.mission.kind = MissionKind::kSquare;
+        w.water->features = {{.kind = FeatureKind::kBoulder, .at_m = {5, 0}, .size_m = {4, 4, 12}}};
+      }),
+      "under the seabed");
   names(refusal([](auto&, auto& w) { w.water.reset(); }), "no water");
   names(refusal([](auto&, auto& w) { w.terrain.kind = TerrainKind::kKerbs; }), "seabed is flat");
   names(refusal([](auto& r, auto&) {
@@ -191,9 +198,8 @@ TEST(UnderwaterVehicle, RefusesWhatCantBe) {
         "added_mass");
   names(refusal([](auto& r, auto&) { std::get<UnderwaterConfig>(r.drive).thrusters.clear(); }),
         "no thrusters");
-  names(refusal([](auto& r, auto&) {
-          std::get<UnderwaterConfig>(r.drive).autopilot.yaw_n_m_s = -1.0;
-        }),
+  names(refusal(
+            [](auto& r, auto&) { std::get<UnderwaterConfig>(r.drive).autopilot.yaw_n_m_s = -1.0; }),
         "yaw_n_m_s");
 }
 
@@ -231,8 +237,11 @@ TEST_F(SceneryTest, ASlopeRisesWhereItIsToldTo) {
 
 TEST_F(SceneryTest, ARoughSeabedIsTheTerrainBetweenItsNodes) {
   WorldConfig config = Sea();
-  config.terrain = {.kind = TerrainKind::kRough, .half_size_m = 20.0, .rms_m = 0.3,
-                    .shortest_wave_m = 2.0, .longest_wave_m = 20.0};
+  config.terrain = {.kind = TerrainKind::kRough,
+                    .half_size_m = 20.0,
+                    .rms_m = 0.3,
+                    .shortest_wave_m = 2.0,
+                    .longest_wave_m = 20.0};
   const World world(BlueRov2(), config, 1);
   const Seabed seabed(config, 1);
   double square = 0.0, height = 0.0;
