@@ -21,7 +21,7 @@ const Vector3d kAccel(0.3, 0.2, 9.8);
 constexpr double kStep = 0.0025;
 constexpr double kGyroVariance = 1e-6;
 const models::DepthSample kDepth{1.9};
-constexpr double kDepthSigma = 0.01;
+constexpr double kDepthSigma = 0.01, kSamplesOfOneTilt = 200.0;
 const estimator::ProcessNoise kNoise{2.5e-9, 4e-8, 1e-10, 1e-8};
 const Vector3d kMounting(0.2, -0.05, 0.1);  ///< of sensors and of the body's origin, in I
 const Matrix3d kFootNoise = Vector3d(1e-4, 2e-4, 1e-4).asDiagonal();
@@ -67,8 +67,9 @@ void EstimatorOperations::Predict() {
 
 template <int kRows>
 void EstimatorOperations::Correct(const Linearisation<kRows>& m) {
-  const KalmanCorrection<kRows> kalman(core_.P(), core_.Convert(m, core_.x()));
+  KalmanCorrection<kRows> kalman(core_.P(), core_.Convert(m, core_.x()));
   nis_ = kalman.nis();
+  kalman.AddLasting();
   core_.Retract(kalman.Gain());
   kalman.UpdateCovariance(core_.P());
 }
@@ -82,7 +83,9 @@ void EstimatorOperations::CorrectVelocityOnLeverArm() {
 }
 
 void EstimatorOperations::CorrectDepth() {
-  Correct(LinearisedDepth(kDepth, kMounting, kDepthSigma, core_.x()));
+  auto height = LinearisedDepth(kDepth, kMounting, kDepthSigma, core_.x());
+  core_.AddCurvature(kMounting, kSamplesOfOneTilt, height);
+  Correct(height);
 }
 
 void EstimatorOperations::CorrectFeet() {

@@ -31,32 +31,33 @@ using Eigen::Vector3d;
   P_.AddBiases(J, noise, dt);
 }
 
-[[gnu::flatten]] void RightInvariantEkf::AddCurvature(const Vector3d& r, double samples,
-                                                      Linearisation<1>& m) const {
+void RightInvariantEkf::AddCurvature(const Vector3d& r, double samples, Linearisation<1>& m) const {
   constexpr double kNegligible = 1e-4;  // of the variance
-  const LaneMatrix& tt = P_(kThetaSlot, kThetaSlot);
-  const LaneMatrix& tp = P_(kThetaSlot, kPositionSlot);
-  const LaneMatrix& pp = P_(kPositionSlot, kPositionSlot);
+  const LaneMatrix& T = P_(kThetaSlot, kThetaSlot);
+  const LaneMatrix& C = P_(kThetaSlot, kPositionSlot);
+  const LaneMatrix& D = P_(kPositionSlot, kPositionSlot);
   const Vector3d q = x_.p + x_.R * r;
-  const double tilt = tt(0, 0) + tt(1, 1), turn = tilt + tt(2, 2);
-  const double most = 2.0 * (pp(0, 0) + pp(1, 1) + q.squaredNorm() * turn);
+  const double tilt = T(0, 0) + T(1, 1);
+  const double most = 2.0 * (D(0, 0) + D(1, 1) + q.squaredNorm() * (tilt + T(2, 2)));
   if (samples * tilt * most < kNegligible * m.N(0)) return;
-  // δ = ξ_p − [q]× θ.
-  const Eigen::Matrix3d T = ToEigen(tt), q_cross = Skew(q);
-  const Eigen::Matrix3d td = ToEigen(tp) + T * q_cross;  // of θ and δ
-  const Eigen::Matrix3d dd = ToEigen(pp) - q_cross * ToEigen(tp) + td.transpose() * q_cross;
-  // Isserlis: of products of Gaussian factors. The mean stays in the innovation: a start that is
-  // exact would be moved by it.
-  const double mean = td(0, 1) - td(1, 0);
-  const double x_y = T(0, 0) * dd(1, 1) + td(0, 1) * td(0, 1);
-  const double y_x = T(1, 1) * dd(0, 0) + td(1, 0) * td(1, 0);
-  const double both = T(0, 1) * dd(1, 0) + td(0, 0) * td(1, 1);
-  const double square = 0.25 * (x_y + y_x - 2.0 * both + mean * mean);
+  // Covariances with δ = ξ_p − [q]× θ: of θ, C + T [q]×, by columns x and y; of δ itself.
+  const auto with_x = [&](int i) { return C(i, 0) + T(i, 1) * q.z() - T(i, 2) * q.y(); };
+  const auto with_y = [&](int i) { return C(i, 1) - T(i, 0) * q.z() + T(i, 2) * q.x(); };
+  const double xx = with_x(0), yx = with_x(1), zx = with_x(2);
+  const double xy = with_y(0), yy = with_y(1), zy = with_y(2);
+  const double dxx = D(0, 0) + q.z() * (C(1, 0) + yx) - q.y() * (C(2, 0) + zx);
+  const double dyy = D(1, 1) - q.z() * (C(0, 1) + xy) + q.x() * (C(2, 1) + zy);
+  const double dxy = D(0, 1) + q.z() * (C(1, 1) - xx) - q.y() * C(2, 1) + q.x() * zx;
+  // Isserlis: E[(θ_x δ_y − θ_y δ_x)²] of Gaussian factors. Its mean stays in the innovation: a
+  // start that is exact would be moved by it.
+  const double mean = xy - yx;
+  const double square = 0.25 * (T(0, 0) * dyy + xy * xy + T(1, 1) * dxx + yx * yx -
+                                2.0 * (T(0, 1) * dxy + xx * yy) + mean * mean);
   m.N(0) += square;
   m.lasting = (samples - 1.0) * square;
 }
 
-void RightInvariantEkf::Retract(const SlotVector& increment) {
+[[gnu::flatten]] void RightInvariantEkf::Retract(const SlotVector& increment) {
   const RotationSeries<3> theta(increment[kThetaSlot]);
   const LaneMatrix turn = theta.GammaInLanes(0);
   const LaneMatrix J = theta.GammaInLanes(1);

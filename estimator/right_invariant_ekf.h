@@ -38,9 +38,9 @@ class RightInvariantEkf : public ErrorState<ErrorForm::kRightInvariant> {
   /// beside −e_zᵀ δ: exp(−θ) q − J(−θ) ξ_p, expanded. Its mean square under P, that of products of
   /// Gaussians, is added to the noise of `m`, and to what lasts as often as there are further
   /// `samples` over which c is one and the same error: as white noise it would be averaged away.
-  /// This counts where tilt and position are uncertain, as they are
-  /// after half a minute without a velocity; then the filter is over-confident without it. `m`
-  /// stays as it is where that is surely below a hundredth of its noise.
+  /// This counts where tilt and position are uncertain, as they are after half a minute without a
+  /// velocity; then the filter is over-confident without it. `m` stays as it is where that is
+  /// surely below a hundredth of its noise. Does not allocate.
   void AddCurvature(const Eigen::Vector3d& r, double samples, Linearisation<1>& m) const;
 
   /// X⁺ = exp(ξ) X̂ and b⁺ = b̂ + ζ for the increment K z.

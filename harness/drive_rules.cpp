@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <stdexcept>
@@ -110,6 +111,10 @@ class DriveRules {
                   "/actual/wheel_radius_scale", "nothing: this robot has no wheels");
     book_.Require(actual.track_scale == 1.0, "/actual/track_scale",
                   "nothing: this robot has no wheels");
+    for (const auto& [name, sensor] : s_.sensors) {
+      book_.Require(!std::holds_alternative<sim::EncoderConfig>(sensor.errors),
+                    "/sensors/" + name + "/type", "no encoders: this robot has no wheels");
+    }
     Try("/drive/hydrodynamics", [&] {
       const sim::Hydrodynamics check("hydrodynamics", config.hydrodynamics,
                                      s_.world.water->density_kg_m3, s_.world.gravity_m_s2);

@@ -18,8 +18,7 @@ namespace reckon::sim {
 /// unquantised if r is zero; b ~ N(0, offset_m²) is drawn once a run, the surface's drift d is a
 /// random walk from zero, n is white with the configured σ per sample. Where the sensor's axes
 /// point does not matter. Draws come from "<name>.noise" (index = sample), "<name>.drift"
-/// (likewise) and
-/// "<name>.offset".
+/// (likewise) and "<name>.offset".
 class DepthSensor : public Sensor {
  public:
   /// Throws std::invalid_argument for a negative or non-finite entry.

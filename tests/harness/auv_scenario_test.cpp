@@ -117,6 +117,11 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"WheelsUnderWater", "robot: bluerov2\nactual: {track_scale: 1.1}\n",
              "sc.yaml:2:23: error: '/actual/track_scale': expected nothing: this robot has no "
              "wheels, found '1.1'"},
+        Case{"EncodersUnderWater",
+             "robot: bluerov2\nsensors: {w: {type: encoders, frame: base_link}}\n",
+             "sc.yaml:2:20: error: '/sensors/w/type': expected no encoders: this robot has no "
+             "wheels, "
+             "found 'encoders'"},
         Case{"KerbsUnderWater", "robot: bluerov2\nworld: {terrain: {kind: kerbs}}\n",
              "sc.yaml:2:25: error: '/world/terrain/kind': a seabed is flat, slope or rough"},
         Case{"NegativeMass", "robot: bluerov2\nactual: {mass_scale: -1}\n",

@@ -37,6 +37,7 @@ TEST(Thrusters, GiveWhatIsWantedOnceTheyHaveSpunUp) {
   for (int i = 0; i < 1000; ++i) given = thrusters.Update(Wanted(), 0.01);
   EXPECT_LT((given - Wanted()).norm(), 1e-12);
   EXPECT_LT(thrusters.thrust_n().cwiseAbs().maxCoeff(), 40.0);
+  EXPECT_FALSE(thrusters.saturated());
 }
 
 TEST(Thrusters, FollowWithTheirLagWhateverTheStep) {
@@ -54,6 +55,7 @@ TEST(Thrusters, KeepTheDirectionWhereOneWouldBeTooStrong) {
   for (int i = 0; i < 1000; ++i) given = thrusters.Update(20.0 * Wanted(), 0.01);
   EXPECT_NEAR(thrusters.thrust_n().cwiseAbs().maxCoeff(), 40.0, 1e-9);
   EXPECT_LT((given.normalized() - Wanted().normalized()).norm(), 1e-12);
+  EXPECT_TRUE(thrusters.saturated());
 }
 
 TEST(Thrusters, ComeNearestToWhatTheyCannotGive) {
