@@ -74,11 +74,10 @@ void KalmanCorrection<kRows>::Inflate(double target) {
 }
 
 template <int kRows>
-void KalmanCorrection<kRows>::AddLasting() {
+void KalmanCorrection<kRows>::AddNoise(double variance) {
   if constexpr (kRows == 1) {
-    if (m_.lasting <= 0.0) return;
-    N_ += m_.lasting;
-    S_ += m_.lasting;
+    N_ += variance;
+    S_ += variance;
     S_inverse_ = Inverse(S_);
   }
 }

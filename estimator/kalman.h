@@ -27,7 +27,11 @@ class KalmanCorrection {
   void Inflate(double target);
 
   /// Adds the measurement's lasting noise, once its NIS has been judged. One row.
-  void AddLasting();
+  void AddLasting() {
+    if constexpr (kRows == 1) {
+      if (m_.lasting > 0.0) AddNoise(m_.lasting);
+    }
+  }
 
   /// K z with K = C S⁻¹.
   SlotVector Gain() const;
@@ -41,6 +45,7 @@ class KalmanCorrection {
   void UpdateCovariance(Covariance& P) const;
 
  private:
+  void AddNoise(double variance);
   template <class Slots>
   void Update(Covariance& P, Slots slots) const;
 

@@ -119,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(
              "wheels, found '1.1'"},
         Case{"EncodersUnderWater",
              "robot: bluerov2\nsensors: {w: {type: encoders, frame: base_link}}\n",
-             "sc.yaml:2:20: error: '/sensors/w/type': expected no encoders: this robot has no "
+             "sc.yaml:2:21: error: '/sensors/w/type': expected no encoders: this robot has no "
              "wheels, "
              "found 'encoders'"},
         Case{"KerbsUnderWater", "robot: bluerov2\nworld: {terrain: {kind: kerbs}}\n",
