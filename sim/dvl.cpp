@@ -61,6 +61,7 @@ Dvl::Dvl(const std::string& name, models::SensorId id, const models::Pose& X_BS,
       beams_("sensor '" + name + "'", config.beam_angle_deg, config.azimuths_deg),
       surroundings_(environment.surroundings),
       sound_speed_m_s_(environment.sound_speed_m_s),
+      cos_beam_(-beams_.directions().front().z()),
       noise_draws_(seed, name + ".noise"),
       dropout_draws_(seed, name + ".dropout"),
       step_ns_(environment.step_ns) {
@@ -94,13 +95,12 @@ Vector3d Dvl::VelocityIn(const MotionWindow& motion) const {
 void Dvl::CastBeams(const MotionWindow& motion) {
   const models::Pose X_WS = motion.X_WB * X_BS_;
   const double least_cos = std::cos(config_.max_incidence_deg * std::numbers::pi / 180.0);
-  const double cos_beam = -beams_.directions().front().z();
   for (std::uint32_t i = 0; i < beams_.directions().size(); ++i) {
     const auto hit = surroundings_->Cast(X_WS.p, X_WS.R * beams_.directions()[i]);
     Echo& echo = echoes_[i];
     echo = {};
     if (!hit || dropout_draws_.Uniform(i, pings_) < config_.dropout) continue;
-    const double altitude = hit->range_m * cos_beam;
+    const double altitude = hit->range_m * cos_beam_;
     if (altitude < config_.altitude_min_m || altitude > config_.altitude_max_m) continue;
     if (hit->cos_incidence < least_cos) continue;
     echo.answers = true;
@@ -111,34 +111,38 @@ void Dvl::CastBeams(const MotionWindow& motion) {
 /// All beams are answered by the water under the log.
 void Dvl::AskTheWater() {
   over_ground_ = false;
-  const double cos_beam = -beams_.directions().front().z();
   for (std::size_t i = 0; i < beams_.directions().size(); ++i) {
     echoes_[i] = {};
     echoes_[i].answers = true;
-    echoes_[i].range_m = config_.water_layer_m / cos_beam;
+    echoes_[i].range_m = config_.water_layer_m / cos_beam_;
   }
 }
 
+/// How many beams answer; and how far away what they meet is on the mean.
+int Dvl::CountEchoes() {
+  int answers = 0;
+  double sum = 0.0;
+  for (const Echo& echo : echoes_) {
+    answers += echo.answers ? 1 : 0;
+    sum += echo.range_m;
+  }
+  mean_range_m_ = answers > 0 ? sum / answers : 0.0;
+  return answers;
+}
+
 void Dvl::Ping(const MotionWindow& motion) {
-  const auto count = static_cast<std::ptrdiff_t>(beams_.directions().size());
-  const auto answers = [](const Echo& echo) { return echo.answers; };
-  const auto answered = [&] {
-    return std::count_if(echoes_.begin(), echoes_.begin() + count, answers);
-  };
   over_ground_ = true;
   CastBeams(motion);
   if (VelocityIn(motion).norm() > config_.max_speed_m_s) echoes_ = {};
-  const double cos_beam = -beams_.directions().front().z();
-  if (answered() >= config_.min_beams) {
-    double sum = 0.0;
-    for (const Echo& echo : echoes_) sum += echo.range_m;
-    altitude_m_ = sum / static_cast<double>(answered()) * cos_beam;
-  } else {
-    altitude_m_ = config_.altitude_max_m;  // it listens as long as it would from there
-    if (config_.water_track) AskTheWater();
+  bool locked = CountEchoes() >= config_.min_beams;
+  altitude_m_ = locked ? mean_range_m_ * cos_beam_ : config_.altitude_max_m;
+  if (!locked && config_.water_track) {
+    AskTheWater();
+    locked = CountEchoes() >= config_.min_beams;
   }
   ping_s_ = models::Seconds(motion.t_ns);
-  double farthest = answered() < config_.min_beams ? config_.altitude_max_m / cos_beam : 0.0;
+  // Without lock it listens as long as the farthest echo could take.
+  double farthest = locked ? 0.0 : config_.altitude_max_m / cos_beam_;
   for (Echo& echo : echoes_) {
     echo.t_s = ping_s_ + 2.0 * echo.range_m / sound_speed_m_s_;
     farthest = std::max(farthest, echo.range_m);
@@ -152,7 +156,7 @@ void Dvl::Ping(const MotionWindow& motion) {
 void Dvl::Listen(const MotionWindow& motion) {
   const double t_s = models::Seconds(motion.t_ns), step_s = models::Seconds(step_ns_);
   const Vector3d now = VelocityIn(motion);
-  const double sigma = over_ground_ ? config_.noise_m_per_s : config_.water_noise_m_per_s;
+  const double sigma = Sigma();
   for (std::uint32_t i = 0; i < beams_.directions().size(); ++i) {
     Echo& echo = echoes_[i];
     if (!echo.answers || echo.along_m_s || echo.t_s > t_s) continue;
@@ -173,8 +177,7 @@ models::BodyVelocitySample Dvl::Solution() const {
     along[i] = echoes_[i].along_m_s;
     if (along[i]) sample.beams = static_cast<std::uint8_t>(sample.beams | (1U << i));
   }
-  const double sigma = over_ground_ ? config_.noise_m_per_s : config_.water_noise_m_per_s;
-  const auto solution = beams_.Solve({along.data(), count}, sigma);
+  const auto solution = beams_.Solve({along.data(), count}, Sigma());
   sample.valid = solution && solution->beams >= config_.min_beams;
   sample.v_WS_S = sample.valid ? solution->velocity_m_s : Vector3d::Constant(kNan);
   sample.covariance = sample.valid ? solution->covariance_m2_s2 : Eigen::Matrix3d::Constant(kNan);
@@ -184,13 +187,7 @@ models::BodyVelocitySample Dvl::Solution() const {
 
 models::Measurement Dvl::Speak() const {
   models::Measurement message{id_, 0, 0, Solution()};
-  double sum = 0.0, answers = 0.0;
-  for (const Echo& echo : echoes_) {
-    sum += echo.answers ? echo.range_m : 0.0;
-    answers += echo.answers ? 1.0 : 0.0;
-  }
-  const double mean = answers > 0.0 ? sum / answers : 0.0;
-  const double valid_s = ping_s_ + mean / sound_speed_m_s_ + config_.timing.stamp_error_s;
+  const double valid_s = ping_s_ + mean_range_m_ / sound_speed_m_s_ + config_.timing.stamp_error_s;
   message.valid_ns = std::llround(1e9 * valid_s);
   const auto spoken_ns = std::llround(1e9 * (end_s_ + config_.timing.latency_s));
   message.arrival_ns = std::max<models::TimeNs>(spoken_ns, message.valid_ns);

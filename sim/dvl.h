@@ -50,10 +50,14 @@ class Dvl : public Sensor {
   void Ping(const MotionWindow& motion);
   void CastBeams(const MotionWindow& motion);
   void AskTheWater();
+  int CountEchoes();
   void Listen(const MotionWindow& motion);
   models::Measurement Speak() const;
   models::BodyVelocitySample Solution() const;
   Eigen::Vector3d VelocityIn(const MotionWindow& motion) const;
+  double Sigma() const {
+    return over_ground_ ? config_.noise_m_per_s : config_.water_noise_m_per_s;
+  }
   models::TimeNs PeriodNs() const;
 
   models::SensorId id_;
@@ -61,14 +65,15 @@ class Dvl : public Sensor {
   DvlConfig config_;
   DvlBeams beams_;
   const Surroundings* surroundings_;
-  double sound_speed_m_s_, gain_;
+  double sound_speed_m_s_, cos_beam_, gain_;
   std::array<double, DvlBeams::kMost> offset_m_s_{};
   RandomStream noise_draws_, dropout_draws_;
   models::TimeNs step_ns_, next_ping_ns_;
 
   std::uint64_t pings_ = 0;
   bool listening_ = false, over_ground_ = true;
-  double altitude_m_ = 0.0;  ///< as seen last; 0: not yet
+  double altitude_m_ = 0.0;    ///< as seen last; 0: not yet
+  double mean_range_m_ = 0.0;  ///< of the echoes of this ping; 0: none
   double ping_s_ = 0.0, end_s_ = 0.0;
   Eigen::Vector3d sent_m_s_, last_m_s_;  ///< v_S at the ping, and at the step before this
   Echoes echoes_;

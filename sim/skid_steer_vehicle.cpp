@@ -1,8 +1,6 @@
 #include "reckon/sim/skid_steer_vehicle.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "reckon/sim/attitude.h"
@@ -29,11 +27,6 @@ Eigen::Matrix3d StandOn(const Ground& ground) {
   return R;
 }
 
-models::TimeNs DriverPeriod(double step_s) {
-  const auto steps = std::max(1LL, std::llround(1.0 / (Driver::kRateHz * step_s)));
-  return steps * std::llround(step_s * 1e9);
-}
-
 }  // namespace
 
 SkidSteerVehicle::SkidSteerVehicle(const RobotConfig& robot, const WorldConfig& config,
@@ -47,7 +40,8 @@ SkidSteerVehicle::SkidSteerVehicle(const RobotConfig& robot, const WorldConfig& 
       terrain_(std::move(terrain)),
       driver_(config.motion),
       steer_(robot, config, urdf, *model_),
-      driver_period_ns_(DriverPeriod(config.physics_step_s)) {
+      driver_period_ns_(StepsPerCall(Driver::kRateHz, config.physics_step_s) *
+                        std::llround(config.physics_step_s * 1e9)) {
   const Ground ground = terrain_.At(0.0, 0.0);
   const Eigen::Matrix3d R_WB = StandOn(ground);
   const double z = ground.h + steer_.RestHeight(*model_) / R_WB(2, 2);
@@ -85,12 +79,7 @@ bool SkidSteerVehicle::IsSettled() const {
 
 std::optional<std::string> SkidSteerVehicle::Trouble(const VehicleState& state) const {
   const auto& p = state.X_WB.p;
-  if (!terrain_.Contains(p.x(), p.y())) {
-    char text[120];
-    std::snprintf(text, sizeof(text), "the robot left the map (|x|, |y| ≤ %g m)",
-                  terrain_.config().half_size_m);
-    return text;
-  }
+  if (auto outside = terrain_.Outside(p.x(), p.y())) return outside;
   if (IsOverturned(state.X_WB.R)) return "the robot turned over";
   return std::nullopt;
 }

@@ -1,6 +1,7 @@
 #include "reckon/sim/terrain.h"
 
 #include <cmath>
+#include <cstdio>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -89,6 +90,14 @@ double Terrain::Friction(double x, double y) const {
 
 bool Terrain::Contains(double x, double y) const {
   return std::abs(x) <= config_.half_size_m && std::abs(y) <= config_.half_size_m;
+}
+
+std::optional<std::string> Terrain::Outside(double x, double y) const {
+  if (Contains(x, y)) return std::nullopt;
+  char text[120];
+  std::snprintf(text, sizeof(text), "the robot left the map (|x|, |y| ≤ %g m)",
+                config_.half_size_m);
+  return text;
 }
 
 std::array<std::optional<double>, 2> Terrain::KerbsAround(double x) const {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "reckon/sim/terrain_table.h"
@@ -28,6 +29,9 @@ class Terrain {
 
   /// Whether (x, y) is on the map.
   bool Contains(double x, double y) const;
+
+  /// What a run that left the map ends with; nothing on it.
+  std::optional<std::string> Outside(double x, double y) const;
 
   /// Centres along x [m] of the kerbs on both sides of `x`; nothing at the origin, where the robot
   /// starts, and beyond the map. Does not allocate.

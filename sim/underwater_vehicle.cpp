@@ -61,10 +61,6 @@ double TopOf(const mjModel& model, const mjData& data) {
   return top;
 }
 
-long long ControlPeriod(double step_s) {
-  return std::max(1LL, std::llround(1.0 / (Autopilot::kRateHz * step_s)));
-}
-
 }  // namespace
 
 UnderwaterVehicle::UnderwaterVehicle(const RobotConfig& robot, const WorldConfig& config,
@@ -84,7 +80,7 @@ UnderwaterVehicle::UnderwaterVehicle(const RobotConfig& robot, const WorldConfig
       navigator_(config.mission),
       scenery_(*model_, *data_),
       step_s_(config.physics_step_s),
-      control_period_steps_(ControlPeriod(config.physics_step_s)) {
+      control_period_steps_(StepsPerCall(Autopilot::kRateHz, config.physics_step_s)) {
   mj_forward(model_.get(), data_.get());  // at the origin
   top_m_ = TopOf(*model_, *data_);
   CheckMission();
@@ -124,13 +120,9 @@ void UnderwaterVehicle::Step(models::TimeNs t_ns, VehicleState& now) {
 
 std::optional<std::string> UnderwaterVehicle::Trouble(const VehicleState& state) const {
   const auto& p = state.X_WB.p;
-  char text[160];
-  if (!seabed_.terrain().Contains(p.x(), p.y())) {
-    std::snprintf(text, sizeof(text), "the robot left the map (|x|, |y| ≤ %g m)",
-                  seabed_.terrain().config().half_size_m);
-    return text;
-  }
+  if (auto outside = seabed_.terrain().Outside(p.x(), p.y())) return outside;
   if (p.z() > -top_m_) {
+    char text[160];
     std::snprintf(text, sizeof(text),
                   "the robot broke the surface (less than %.3g m deep), where its buoyancy is not "
                   "modelled",

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 
@@ -54,5 +56,10 @@ class Vehicle {
   ModelPtr model_;
   DataPtr data_;
 };
+
+/// How many physics steps lie between two calls of a controller: at least one.
+inline long long StepsPerCall(double rate_hz, double step_s) {
+  return std::max(1LL, std::llround(1.0 / (rate_hz * step_s)));
+}
 
 }  // namespace reckon::sim

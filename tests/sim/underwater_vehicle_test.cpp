@@ -9,9 +9,12 @@
 
 #include "reckon/sim/world.h"
 #include "sim/bluerov2.h"
+#include "sim/message.h"
 
 namespace reckon::sim {
 namespace {
+
+using testing_sim::Message;
 
 using Eigen::Vector3d;
 
@@ -27,16 +30,6 @@ std::vector<ground_truth::Truth> Fly(const RobotConfig& robot, const WorldConfig
     if (k % 100 == 0) track.push_back(world.TruthNow());
   }
   return track;
-}
-
-template <typename Error>
-std::string Message(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "(nothing was thrown)";
 }
 
 /// Nobody steers.

@@ -9,9 +9,12 @@
 #include <mujoco/mujoco.h>
 
 #include "sim/husky.h"
+#include "sim/message.h"
 
 namespace reckon::sim {
 namespace {
+
+using testing_sim::Message;
 
 WorldConfig Square(TerrainKind terrain) {
   WorldConfig config;
@@ -47,16 +50,6 @@ std::vector<double> Trace(const WorldConfig& config, std::uint64_t seed, int ste
     Append(trace, world);
   }
   return trace;
-}
-
-template <typename Error>
-std::string Message(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "(nothing was thrown)";
 }
 
 TEST(World, StartsAtRestAtTheOrigin) {
