@@ -1,8 +1,12 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <array>
 #include <cmath>
+#include <iostream>
 #include <map>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -89,6 +93,17 @@ inline std::string Lines(const std::vector<std::string>& items) {
   std::string text;
   for (const auto& item : items) text += "\n    " + item;
   return text;
+}
+
+/// Those that are called `honest` have no complaint against them, and each of the others has one.
+inline void ExpectHonest(const std::set<std::string>& honest,
+                         const std::map<std::string, Evidence>& evidence, double false_alarm) {
+  for (const auto& [name, found] : evidence) {
+    const auto complaints = found.Complaints(false_alarm);
+    EXPECT_EQ(complaints.empty(), honest.contains(name)) << name << Lines(complaints);
+    std::cout << name << ": mean NIS a row " << found.nis_a_row() << ", " << complaints.size()
+              << " complaints" << Lines(complaints) << "\n";
+  }
 }
 
 }  // namespace reckon::harness
