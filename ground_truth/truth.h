@@ -1,12 +1,31 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
+#include "reckon/models/contact_sample.h"
 #include "reckon/models/encoder_sample.h"
 #include "reckon/models/pose.h"
 #include "reckon/models/time.h"
 
 namespace reckon::ground_truth {
+
+/// What a foot does to the ground. Off the ground all is zero but the speed of its centre.
+struct FootTruth {
+  bool contact = false;  ///< it presses with more than kContactForce
+  double normal_n = 0.0, tangential_n = 0.0;
+  double slip_m_s = 0.0;    ///< of the contact point over the ground
+  double centre_m_s = 0.0;  ///< of the foot's origin in W: a round foot rolls
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< of the ground under it, in W
+
+  static constexpr double kContactForce = 1.0;  ///< N
+};
+
+/// The feet of a robot, in the order of its legs; bounded, so that no step allocates.
+struct FeetTruth {
+  std::array<FootTruth, models::kMaxFeet> foot;
+  int count = 0;
+};
 
 /// What really happened at one instant. No estimator's header or source can name this type.
 struct Truth {
@@ -22,6 +41,7 @@ struct Truth {
       wheel_rate_rad_s;                  ///< true spin, left to right and front to rear as modelled
   models::EncoderVector wheel_slip_m_s;  ///< speed of each contact point over the ground
   models::EncoderVector wheel_load_n;    ///< normal force on each wheel
+  FeetTruth feet;
 };
 
 }  // namespace reckon::ground_truth

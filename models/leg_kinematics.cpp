@@ -7,17 +7,6 @@
 namespace reckon::models {
 namespace {
 
-/// The joints from the body to `link`, in that order.
-std::vector<int> JointsTo(const UrdfRobot& robot, int link) {
-  std::vector<int> joints;
-  for (int j = robot.links()[link].parent_joint; j >= 0;
-       j = robot.links()[robot.joints()[j].parent].parent_joint) {
-    joints.push_back(j);
-  }
-  std::reverse(joints.begin(), joints.end());
-  return joints;
-}
-
 int EntryOf(const std::string& joint, const std::string& foot,
             std::span<const std::string> encoders) {
   const auto found = std::find(encoders.begin(), encoders.end(), joint);
@@ -29,6 +18,16 @@ int EntryOf(const std::string& joint, const std::string& foot,
 }
 
 }  // namespace
+
+std::vector<int> JointsTo(const UrdfRobot& robot, int link) {
+  std::vector<int> joints;
+  for (int j = robot.links()[link].parent_joint; j >= 0;
+       j = robot.links()[robot.joints()[j].parent].parent_joint) {
+    joints.push_back(j);
+  }
+  std::reverse(joints.begin(), joints.end());
+  return joints;
+}
 
 LegKinematics::LegKinematics(const UrdfRobot& robot, const std::string& foot,
                              std::span<const std::string> encoders)
@@ -69,10 +68,13 @@ FootPosition LegKinematics::Evaluate(const EncoderVector& angles) const {
   }
   FootPosition foot;
   foot.p_BF = X * X_last_F_.p;
-  foot.J.resize(3, static_cast<Eigen::Index>(chain_.size()));
+  const auto joints = static_cast<Eigen::Index>(chain_.size());
+  foot.J.resize(3, joints);
+  foot.A.setZero(3, joints);
   for (std::size_t k = 0; k < chain_.size(); ++k) {
     const auto column = static_cast<Eigen::Index>(k);
     foot.J.col(column) = chain_[k].turns ? axis[k].cross(foot.p_BF - origin[k]).eval() : axis[k];
+    if (chain_[k].turns) foot.A.col(column) = axis[k];
   }
   return foot;
 }

@@ -130,16 +130,24 @@ JointType ToType(const urdf::Joint& joint, const std::string& source) {
 }
 
 UrdfJoint ReadJoint(const urdf::Joint& from, int parent, int child, const std::string& source) {
-  UrdfJoint joint{from.name,
-                  ToType(from, source),
-                  parent,
-                  child,
-                  ToPose(from.parent_to_joint_origin_transform),
-                  Eigen::Vector3d::UnitX()};
+  UrdfJoint joint;
+  joint.name = from.name;
+  joint.type = ToType(from, source);
+  joint.parent = parent;
+  joint.child = child;
+  joint.X_PJ = ToPose(from.parent_to_joint_origin_transform);
   if (joint.type == JointType::kFixed) return joint;
   const Eigen::Vector3d axis(from.axis.x, from.axis.y, from.axis.z);
   if (!(axis.norm() > 1e-6)) Refuse(source, "joint '" + from.name + "' has an axis of length zero");
   joint.axis = axis.normalized();
+  if (!from.limits) return joint;
+  joint.lower = from.limits->lower;
+  joint.upper = from.limits->upper;
+  joint.effort = from.limits->effort;
+  if (joint.type != JointType::kContinuous && !(joint.lower < joint.upper)) {
+    Refuse(source, "joint '" + from.name + "' has a lower limit, " + std::to_string(joint.lower) +
+                       ", that is not below its upper one, " + std::to_string(joint.upper));
+  }
   return joint;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "reckon/models/urdf_robot.h"
+#include "reckon/sim/legged_config.h"
 #include "reckon/sim/underwater_config.h"
 
 namespace reckon::sim {
@@ -32,8 +33,8 @@ struct SkidSteerConfig {
 };
 
 /// What moves a robot. The alternatives are in the order of `DriveKind`.
-using DriveConfig = std::variant<SkidSteerConfig, UnderwaterConfig>;
-enum class DriveKind { kSkidSteer, kUnderwater };
+using DriveConfig = std::variant<SkidSteerConfig, UnderwaterConfig, LeggedConfig>;
+enum class DriveKind { kSkidSteer, kUnderwater, kLegged };
 
 inline DriveKind KindOf(const DriveConfig& drive) { return static_cast<DriveKind>(drive.index()); }
 

@@ -5,8 +5,10 @@
 #include <optional>
 #include <string>
 
+#include "reckon/ground_truth/truth.h"
 #include "reckon/models/encoder_sample.h"
 #include "reckon/models/pose.h"
+#include "reckon/sim/control_state.h"
 #include "reckon/sim/mujoco_model.h"
 #include "reckon/sim/surroundings.h"
 
@@ -15,7 +17,10 @@ namespace reckon::sim {
 /// A simulated robot at one instant.
 struct VehicleState {
   models::Pose X_WB;
-  models::EncoderVector joint_angle_rad, joint_rate_rad_s;  ///< wheels, as the encoders count them
+  models::EncoderVector joint_angle_rad, joint_rate_rad_s;  ///< as the encoders count them
+  models::EncoderVector joint_command_n_m, joint_torque_n_m;  ///< of legs: asked for, and given
+  ground_truth::FeetTruth feet;
+  models::FootVector gait;  ///< 1 for each foot that the gait has down
   models::EncoderVector wheel_slip_m_s, wheel_load_n;
   Eigen::Vector3d water_velocity_m_s = Eigen::Vector3d::Zero();  ///< around it, in W
 };
@@ -40,6 +45,9 @@ class Vehicle {
 
   /// It has come to rest: brakes are released. The steps up to t = 0 follow.
   virtual void Release() {}
+
+  /// Tells its controller what it is to believe from now on, where that is not the truth.
+  virtual void Believe(const ControlState& /*state*/) {}
 
   /// What ends the run in this state: the robot left the map, turned over; nothing if all is well.
   virtual std::optional<std::string> Trouble(const VehicleState& state) const = 0;

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "reckon/sim/legged_vehicle.h"
 #include "reckon/sim/rotation_vector.h"
 #include "reckon/sim/skid_steer_vehicle.h"
 #include "reckon/sim/underwater_vehicle.h"
@@ -34,6 +35,8 @@ std::unique_ptr<Vehicle> MakeVehicle(const RobotConfig& robot, const WorldConfig
       return std::make_unique<SkidSteerVehicle>(robot, config, seed);
     case DriveKind::kUnderwater:
       return std::make_unique<UnderwaterVehicle>(robot, config, seed);
+    case DriveKind::kLegged:
+      return std::make_unique<LeggedVehicle>(robot, config, seed);
   }
   throw std::invalid_argument("robot '" + robot.name + "': unknown drive");
 }
@@ -60,12 +63,17 @@ class World::Impl {
     motion_.X_WB_next = next_.X_WB;
     motion_.joint_angle_rad = now_.joint_angle_rad;
     motion_.joint_rate_rad_s = now_.joint_rate_rad_s;
+    motion_.joint_command_n_m = now_.joint_command_n_m;
+    motion_.joint_torque_n_m = now_.joint_torque_n_m;
+    motion_.feet = now_.feet;
+    motion_.gait = now_.gait;
     motion_.water_velocity_m_s = now_.water_velocity_m_s;
   }
 
   const MotionWindow& motion() const { return motion_; }
 
   const Vehicle& vehicle() const { return *vehicle_; }
+  void Believe(const ControlState& state) { vehicle_->Believe(state); }
 
   Environment environment() const {
     Environment environment;
@@ -88,6 +96,7 @@ class World::Impl {
     truth.wheel_rate_rad_s = now_.joint_rate_rad_s;
     truth.wheel_slip_m_s = now_.wheel_slip_m_s;
     truth.wheel_load_n = now_.wheel_load_n;
+    truth.feet = now_.feet;
     return truth;
   }
 
@@ -153,6 +162,7 @@ World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
 void World::Advance() { impl_->Advance(); }
+void World::Believe(const ControlState& state) { impl_->Believe(state); }
 const MotionWindow& World::motion() const { return impl_->motion(); }
 Environment World::environment() const { return impl_->environment(); }
 const mjModel_& World::physics_model() const { return impl_->vehicle().model(); }

@@ -1,19 +1,32 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "reckon/sim/legged_config.h"
 #include "reckon/sim/mission.h"
 #include "reckon/sim/range.h"
 #include "reckon/sim/water_config.h"
 
 namespace reckon::sim {
 
-enum class TerrainKind { kFlat, kSlope, kRough, kKerbs };
+enum class TerrainKind { kFlat, kSlope, kRough, kKerbs, kStairs, kDebris, kGravel };
+
+/// How the ground gives way under a foot: MuJoCo's `solref` and `solimp`.
+struct GroundContactConfig {
+  double time_constant_s = 0.01;
+  double damping_ratio = 1.0;
+  double impedance_min = 0.9, impedance_max = 0.95;
+  double width_m = 0.001;  ///< penetration over which the impedance rises from one to the other
+
+  static constexpr Range kTimeConstant{0.001, 1}, kDampingRatio = AboveUpTo(0, 10);
+  static constexpr Range kImpedance{0.01, 0.9999}, kWidth{1e-5, 1};
+};
 
 /// The ground. Which fields count depends on `kind`.
 struct TerrainConfig {
@@ -29,6 +42,14 @@ struct TerrainConfig {
   double kerb_height_m = 0.04;   ///< kerbs: boxes across the path,
   double kerb_width_m = 0.30;    ///<        this wide (along x),
   double kerb_spacing_m = 3.0;   ///<        one every so many metres along x
+  double step_height_m = 0.08;   ///< stairs: flights along x, up and down in turn,
+  double step_depth_m = 0.30;    ///<        of treads this deep,
+  int steps = 5;                 ///<        so many to a flight
+  double piece_height_m = 0.05;  ///< debris: the highest of bars, bricks and boards,
+  double pieces_per_m2 = 1.5;    ///<        so many lie about
+  double stone_m = 0.05;         ///< gravel: across a stone, and
+  double stone_height_m = 0.03;  ///<         how much higher one can lie than another
+  GroundContactConfig contact;   ///< under feet
 
   static constexpr Range kFriction{0, 3}, kRollingResistance{0, 1}, kHalfSize{2, 1000};
   /// Rough ground is a table: one of 150 m has 9e6 nodes.
@@ -37,6 +58,9 @@ struct TerrainConfig {
   /// The table's nodes lie 0.1 m apart, four of them to the shortest wave.
   static constexpr Range kRms{0, 1}, kWave{0.4, 1000};
   /// The chassis has no contacts: a kerb that could meet it is refused.
+  static constexpr Range kStepHeight{1e-3, 0.5}, kStepDepth{0.05, 5}, kSteps{1, 100};
+  static constexpr Range kPieceHeight{1e-3, 0.5}, kPieces{0, 20};
+  static constexpr Range kStone{0.01, 1}, kStoneHeight{0, 0.5}, kGravelHalfSize{2, 40};
   static constexpr Range kKerbHeight{1e-3, 0.12};
   static constexpr Range kKerbWidth{0.01, 100}, kKerbSpacing = AboveUpTo(0, 1000);
   /// The spacing exceeds the width by at least this: the robot stands between two kerbs.
@@ -63,6 +87,7 @@ struct MotionConfig {
   double radius_m = 5.0;  ///< circle, and each lobe of the figure of eight
   double laps = 1000.0;   ///< square, circle, figure of eight: then it stops
   bool clockwise = false;
+  double go_s = 0.0, stop_s = 0.0;  ///< stands `stop_s` after each `go_s` of going; 0: never
   std::vector<std::array<double, 2>> waypoints_m;  ///< waypoints: stops at the last one
   /// velocity profile: rows [t_s, v_m_s, yaw_rate_rad_s], held until the next row
   std::vector<std::array<double, 3>> profile;
@@ -71,6 +96,11 @@ struct MotionConfig {
 /// How the simulated robot differs from the nominal one.
 struct ActualConfig {
   std::array<double, 2> wheel_radius_scale{1.0, 1.0};  ///< left, right
+  /// Legs: by how much each segment is longer, from a joint to the next one or to the foot, from
+  /// the body outwards.
+  std::vector<double> leg_offset_m;
+  double foot_radius_offset_m = 0.0;                 ///< by how much the feet are larger
+  std::map<std::string, double> encoder_offset_rad;  ///< that a joint's encoder reads too much
   double track_scale = 1.0;
   double mass_scale = 1.0;                                     ///< of the base link
   Eigen::Vector3d com_offset_m = Eigen::Vector3d::Zero();      ///< of the base link, in B
@@ -88,6 +118,8 @@ struct WorldConfig {
   MotionConfig motion;               ///< of a robot on the ground
   std::optional<WaterConfig> water;  ///< the sea, of which `terrain` is the bottom
   MissionConfig mission;             ///< of an underwater vehicle
+  ControlConfig control;             ///< of a robot on legs
+  std::optional<PushConfig> pushes;  ///< of a robot on legs
   ActualConfig actual;
 
   static constexpr Range kPhysicsStep{1e-5, 0.005};
