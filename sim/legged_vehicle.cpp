@@ -8,6 +8,8 @@
 
 #include "reckon/sim/attitude.h"
 #include "reckon/sim/legged_model.h"
+#include "reckon/sim/rotation_vector.h"
+#include "reckon/sim/support_plane.h"
 #include "reckon/sim/walking_ground.h"
 
 namespace reckon::sim {
@@ -16,7 +18,7 @@ namespace {
 using Eigen::Vector3d;
 using ConstVec3 = Eigen::Map<const Vector3d>;
 
-constexpr double kStillSpeed = 2e-3;    // m/s, rad/s
+constexpr double kStillSpeed = 0.02;     // m/s, rad/s
 constexpr double kDrop = 0.003;         // m above the ground at first
 constexpr double kFeels = 0.09;         // of the weight: a foot that presses so hard stands
 constexpr double kFallenTiltDeg = 60.0;
@@ -26,14 +28,28 @@ constexpr double kRopeDamping = 0.7;
 
 const LeggedConfig& DriveOf(const RobotConfig& robot) { return std::get<LeggedConfig>(robot.drive); }
 
-/// The least height of the base at which no foot is in the ground.
-double StartHeight(const LeggedBody& body, const Terrain& terrain) {
-  double height = -1e9;
+/// Over x = y = 0, yaw 0 and leaning as the ground under the feet does on the whole, at the least
+/// height at which no foot is in it.
+models::Pose StartPose(const LeggedBody& body, const Terrain& terrain) {
+  SupportPlane plane(body.legs());
+  SupportPlane::Points under{};
   for (int i = 0; i < body.legs(); ++i) {
     const Vector3d& foot = body.stand_foot(i);
+    under[i] = {foot.x(), foot.y(), terrain.At(foot.x(), foot.y()).h};
+  }
+  plane.Start(under, Eigen::Vector2d::Zero());
+  models::Pose X_WB;
+  X_WB.R.col(2) = plane.normal();
+  X_WB.R.col(0) = Vector3d::UnitY().cross(X_WB.R.col(2)).normalized();
+  X_WB.R.col(1) = X_WB.R.col(2).cross(X_WB.R.col(0));
+  double height = -1e9;
+  for (int i = 0; i < body.legs(); ++i) {
+    const Vector3d foot = X_WB.R * body.stand_foot(i);
     height = std::max(height, terrain.At(foot.x(), foot.y()).h - foot.z());
   }
-  return height + body.foot_radius_m() + HighestOverTerrain(terrain.config()) + kDrop;
+  const double radius = body.foot_radius_m() / X_WB.R(2, 2);
+  X_WB.p.z() = height + radius + HighestOverTerrain(terrain.config()) + kDrop;
+  return X_WB;
 }
 
 }  // namespace
@@ -67,9 +83,9 @@ LeggedVehicle::LeggedVehicle(const RobotConfig& robot, const WorldConfig& config
     joint_rate_address_.push_back(model_->jnt_dofadr[joint]);
     data_->qpos[joint_angle_address_.back()] = body_.stand_angles_rad()[i];
   }
-  const double hung = config.control.in_air ? kHangingHeight * body_.stand_height_m() : 0.0;
-  base_.Place({Eigen::Matrix3d::Identity(), {0.0, 0.0, hung + StartHeight(body_, terrain_)}},
-              *data_);
+  start_ = StartPose(body_, terrain_);
+  if (config.control.in_air) start_.p.z() += kHangingHeight * body_.stand_height_m();
+  base_.Place(start_, *data_);
   mj_kinematics(model_.get(), data_.get());
 }
 
@@ -139,18 +155,18 @@ void LeggedVehicle::Hang() {
   const auto [R, p] = base_.Pose(*data_);
   const Vector3d v = ConstVec3(data_->qvel + base_.twist_address);
   const Vector3d w_B = ConstVec3(data_->qvel + base_.twist_address + 3);
-  const double height = kHangingHeight * body_.stand_height_m() + StartHeight(body_, terrain_);
   Eigen::Map<Eigen::Matrix<double, 6, 1>> wrench(data_->qfrc_applied + base_.twist_address);
   const double mass = body_.mass_kg();
-  wrench.head<3>() = mass * (w * w * (Vector3d(0.0, 0.0, height) - p) - damping * v);
+  wrench.head<3>() = mass * (w * w * (start_.p - p) - damping * v);
   wrench[2] += mass * config_.gravity_m_s2;
-  const Vector3d tilt = Eigen::AngleAxisd(R).angle() * Eigen::AngleAxisd(R).axis();
+  const Vector3d tilt = RotationLog(start_.R.transpose() * R);
   wrench.tail<3>() = -body_.inertia_kg_m2() * (w * w * tilt + damping * w_B);
 }
 
 void LeggedVehicle::Step(models::TimeNs t_ns, VehicleState& now) {
-  const long long period = control_period_ns_ / std::llround(config_.physics_step_s * 1e9);
-  if (steps_++ % period == 0) Control(t_ns, now);
+  // Before the run `t_ns` stands still.
+  const models::TimeNs since_ns = t_ns < 0 ? steps_++ * -t_ns : t_ns;
+  if (since_ns % control_period_ns_ == 0) Control(t_ns, now);
   Push(t_ns);
   if (config_.control.in_air) Hang();
   contacts_.SetFriction(terrain_, *data_, *model_);

@@ -48,6 +48,7 @@ class LeggedVehicle : public Vehicle {
   RandomStream push_draws_;
   std::vector<int> joint_angle_address_, joint_rate_address_;
   int base_body_ = 0;
+  models::Pose start_;
   models::TimeNs control_period_ns_, driver_period_ns_;
   long long steps_ = 0;
   WalkCommand command_;

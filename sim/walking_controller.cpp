@@ -35,6 +35,7 @@ constexpr double kAimBelow = 0.012;       // m into the ground
 constexpr double kLastAim = 0.9;          // of the swing
 constexpr double kLift = 0.07, kTouchDown = 0.15;      // m, m/s
 constexpr double kSearchSpeed = 0.7, kSearch = 0.12;   // m/s, m
+constexpr double kLowerSpeed = 0.05, kLower = 0.06;    // m/s, m: until all feet are down
 constexpr double kRamp = 0.12;                         // of the stance
 constexpr double kFirstLoad = 0.4;
 constexpr double kStanceDamping = 0.05;  // N m s
@@ -78,6 +79,7 @@ const models::EncoderVector& WalkingController::Update(const WalkCommand& comman
   if (!started_) Start(x);
   FollowCommand(command, x);
   StartOrStop(command, x);
+  LowerOntoGround(x);
   GaitClock::Contacts contacts{};
   for (int i = 0; i < body_->legs(); ++i) contacts[i] = feet_[i].contact;
   clock_.Update(kDt, contacts);
@@ -140,6 +142,15 @@ void WalkingController::StartOrStop(const WalkCommand& command, const ControlSta
     stands &= clock_.state(i) == LegPhase::kStance && feet_[i].contact;
   }
   if (stands) clock_.Stop();
+}
+
+/// The plane begins where all feet have found the ground.
+void WalkingController::LowerOntoGround(const ControlState& x) {
+  if (stands_) return;
+  lowered_s_ += kDt;
+  stands_ = std::all_of(feet_.begin(), feet_.begin() + body_->legs(),
+                        [](const Foot& foot) { return foot.contact; });
+  if (stands_) Start(x);
 }
 
 void WalkingController::MoveReferences(const ControlState& x) {
@@ -213,9 +224,9 @@ void WalkingController::Stand(const ControlState& x) {
   for (int i = 0; i < body_->legs(); ++i) forces_[i] = R_YW.transpose() * forces[i];
 }
 
-/// A foot that swings or searches, and one that should stand but was never on the ground.
+/// A foot that swings or searches for the ground.
 bool WalkingController::Guides(int leg) const {
-  return clock_.state(leg) != LegPhase::kStance || (!clock_.walking() && !feet_[leg].contact);
+  return clock_.walking() ? clock_.state(leg) != LegPhase::kStance : !stands_;
 }
 
 double WalkingController::LoadOf(int leg) const {
@@ -256,7 +267,10 @@ WalkingController::Vector3 WalkingController::Foothold(int leg, const ControlSta
 
 SwingPoint WalkingController::Target(int leg, const ControlState& x) {
   Foot& foot = feet_[leg];
-  if (!clock_.walking()) return {x.X_WB * body_->stand_foot(leg), x.v_WB, Vector3d::Zero()};
+  if (!clock_.walking()) {
+    const double down = std::min(kLowerSpeed * lowered_s_, kLower * length_);
+    return {x.X_WB * (body_->stand_foot(leg) - down * Vector3d::UnitZ()), x.v_WB, Vector3d::Zero()};
+  }
   if (clock_.state(leg) == LegPhase::kLate) {
     const double speed = kSearchSpeed * time_;
     const double down = std::min(speed * clock_.late_s(leg), kSearch * length_);
@@ -275,8 +289,9 @@ WalkingController::Vector3 WalkingController::SwingTorque(int leg, const Control
   const Matrix3d R_BW = x.X_WB.R.transpose();
   const Matrix3d J = foot.kinematics.J;
   const auto q = LeggedBody::Of(leg, x.joint_angle_rad);
-  const Vector3d force = config_.swing_stiffness_n_m * (target.p - foot.p_WF) +
-                         config_.swing_damping_n_s_m * (target.v - foot.v_WF);
+  Vector3d force = config_.swing_stiffness_n_m * (target.p - foot.p_WF) +
+                   config_.swing_damping_n_s_m * (target.v - foot.v_WF);
+  if (!stands_ && foot.contact) force.z() -= body_->mass_kg() * g_ / body_->legs();
   Vector3d torque = J.transpose() * (R_BW * force) +
                     body_->dynamics(leg).GravityTorque(q, R_BW * Vector3d::UnitZ(), g_);
   if (!target.a.isZero()) {

@@ -57,6 +57,7 @@ class WalkingController {
   void StartOrStop(const WalkCommand& command, const ControlState& x);
   void MoveReferences(const ControlState& x);
   void AdaptFriction();
+  void LowerOntoGround(const ControlState& x);
   Wrench BodyWrench(const ControlState& x) const;
   void Stand(const ControlState& x);
   Vector3 Foothold(int leg, const ControlState& x) const;
@@ -82,6 +83,8 @@ class WalkingController {
   double yaw_rate_ = 0.0, yaw_wanted_ = 0.0, yaw_ = 0.0, friction_ = 0.4;
   models::EncoderVector torque_;
   bool started_ = false;
+  bool stands_ = false;     ///< all feet have found the ground once
+  double lowered_s_ = 0.0;  ///< for how long they have been looking for it
 };
 
 }  // namespace reckon::sim
