@@ -155,6 +155,15 @@ void Encode(const Truth& truth, RowEncoder& row) {
     row.Put(truth.wheel_slip_m_s[i]);
     row.Put(truth.wheel_load_n[i]);
   }
+  for (int i = 0; i < truth.feet.count; ++i) {
+    const FootTruth& foot = truth.feet.foot[i];
+    row.Put(foot.contact);
+    row.Put(foot.normal_n);
+    row.Put(foot.tangential_n);
+    row.Put(foot.slip_m_s);
+    row.Put(foot.centre_m_s);
+    row.Put(foot.normal);
+  }
 }
 
 void Encode(const models::Measurement& measurement, std::uint64_t order, RowEncoder& row) {
@@ -200,7 +209,7 @@ void Encode(const estimator::Prior& prior, RowEncoder& row) {
   PutBiases(prior, row);
 }
 
-Truth DecodeTruth(RowDecoder& row, int wheels) {
+Truth DecodeTruth(RowDecoder& row, int wheels, int feet) {
   Truth truth;
   GetPose(truth, row);
   truth.w_WB_B = row.Vector();
@@ -213,6 +222,16 @@ Truth DecodeTruth(RowDecoder& row, int wheels) {
     truth.wheel_rate_rad_s[i] = row.Get<double>();
     truth.wheel_slip_m_s[i] = row.Get<double>();
     truth.wheel_load_n[i] = row.Get<double>();
+  }
+  truth.feet.count = feet;
+  for (int i = 0; i < feet; ++i) {
+    FootTruth& foot = truth.feet.foot[i];
+    foot.contact = row.Flag();
+    foot.normal_n = row.Get<double>();
+    foot.tangential_n = row.Get<double>();
+    foot.slip_m_s = row.Get<double>();
+    foot.centre_m_s = row.Get<double>();
+    foot.normal = row.Vector();
   }
   return truth;
 }

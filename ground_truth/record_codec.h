@@ -28,7 +28,7 @@ void Encode(const models::Measurement& measurement, estimator::Refusal reason, s
             RowEncoder& row);
 void Encode(const estimator::Prior& prior, RowEncoder& row);
 
-Truth DecodeTruth(RowDecoder& row, int wheels);
+Truth DecodeTruth(RowDecoder& row, int wheels, int feet);
 /// The sample's kind and its number of encoders or feet are the sensor's.
 models::Measurement DecodeMeasurement(RowDecoder& row, models::SensorId sensor,
                                       models::SensorKind kind, int channels, std::uint64_t* order);

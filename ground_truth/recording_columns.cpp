@@ -134,7 +134,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kConventi
 
 }  // namespace
 
-Columns TruthColumns(const std::vector<std::string>& wheels) {
+Columns TruthColumns(const std::vector<std::string>& wheels, const std::vector<std::string>& feet) {
   Columns columns;
   AddTime(columns, "t_ns", "the instant");
   AddPose(columns);
@@ -144,6 +144,14 @@ Columns TruthColumns(const std::vector<std::string>& wheels) {
     Add(columns, wheel + "_rate_rad_s", Type::kFloat64, "rad/s", "true spin of the wheel");
     Add(columns, wheel + "_slip_m_s", Type::kFloat64, "m/s", "contact point over the ground");
     Add(columns, wheel + "_load_n", Type::kFloat64, "N", "normal force");
+  }
+  for (const auto& foot : feet) {
+    Add(columns, foot + "_contact", Type::kUint8, "1", "whether it presses on the ground");
+    Add(columns, foot + "_normal_n", Type::kFloat64, "N", "normal force");
+    Add(columns, foot + "_tangential_n", Type::kFloat64, "N", "tangential force");
+    Add(columns, foot + "_slip_m_s", Type::kFloat64, "m/s", "contact point over the ground");
+    Add(columns, foot + "_centre_m_s", Type::kFloat64, "m/s", "speed of the foot's origin");
+    AddVector(columns, foot + "_normal", "1", "1", "W", "normal of the ground under it");
   }
   return columns;
 }

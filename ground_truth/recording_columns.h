@@ -12,7 +12,7 @@ namespace reckon::ground_truth {
 
 /// The layout of each stream of a recording, column by column; the encoders in `record_codec.h`
 /// follow the same order.
-Columns TruthColumns(const std::vector<std::string>& wheels);
+Columns TruthColumns(const std::vector<std::string>& wheels, const std::vector<std::string>& feet);
 Columns MeasurementColumns(const RecordedSensor& sensor);
 Columns EstimateColumns();
 Columns CorrectionColumns();

@@ -20,6 +20,7 @@ struct RecordingPlan {
   std::vector<RecordedSensor> sensors;
   std::vector<std::string> estimators;
   std::vector<std::string> wheels;  ///< a name for each wheel of the truth
+  std::vector<std::string> feet;    ///< likewise for each foot
   bool truth = true, measurements = true, estimates = true, covariance = true, corrections = true;
   /// The first row at or after each multiple of this is kept; 0: every instant.
   models::TimeNs truth_period_ns = 0;

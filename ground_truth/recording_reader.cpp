@@ -101,6 +101,9 @@ class RecordingReader::Impl {
     }
     estimators_ = ReadTexts(file_.get(), "estimators");
     wheels_ = ReadTexts(file_.get(), "wheels");
+    feet_ = ReadTexts(file_.get(), "feet");
+    if (feet_.size() > models::kMaxFeet)
+      throw RecordingError("damaged: more feet than there can be");
     for (const auto& name : ReadTexts(file_.get(), "sensors")) {
       mounted_.emplace_back().name = name;
       if (Has("measurements/" + name)) DescribeSensor(name);
@@ -111,6 +114,7 @@ class RecordingReader::Impl {
   const std::vector<models::MountedSensor>& mounted() const { return mounted_; }
   const std::vector<std::string>& estimators() const { return estimators_; }
   const std::vector<std::string>& wheels() const { return wheels_; }
+  const std::vector<std::string>& feet() const { return feet_; }
   const std::vector<RecordedSensor>& recorded() const { return recorded_; }
 
   std::optional<std::string> Attribute(const std::string& name) const {
@@ -211,7 +215,7 @@ class RecordingReader::Impl {
   std::filesystem::path path_;
   Hdf5Handle file_;
   bool closed_ = false;
-  std::vector<std::string> estimators_, wheels_;
+  std::vector<std::string> estimators_, wheels_, feet_;
   std::vector<models::MountedSensor> mounted_;
   std::vector<RecordedSensor> recorded_;  ///< in order of id; empty if no measurements were kept
 };
@@ -234,8 +238,9 @@ const std::vector<std::string>& RecordingReader::estimators() const { return imp
 Cursor<Truth> RecordingReader::ReadTruth() const {
   if (!impl_->Has("truth")) return Nothing<Truth>();
   const int wheels = static_cast<int>(impl_->wheels().size());
-  return Over<Truth>(impl_, impl_->Table("truth", TruthColumns(impl_->wheels())),
-                     [wheels](RowDecoder& row) { return DecodeTruth(row, wheels); });
+  const int feet = static_cast<int>(impl_->feet().size());
+  return Over<Truth>(impl_, impl_->Table("truth", TruthColumns(impl_->wheels(), impl_->feet())),
+                     [wheels, feet](RowDecoder& row) { return DecodeTruth(row, wheels, feet); });
 }
 
 Cursor<models::Measurement> RecordingReader::ReadMeasurements() const {

@@ -98,6 +98,9 @@ class RunRecorder::Impl {
         truth.wheel_load_n.size() != wheels) {
       throw std::invalid_argument("truth with another number of wheels than planned");
     }
+    if (truth.feet.count != static_cast<int>(plan_.feet.size())) {
+      throw std::invalid_argument("truth with another number of feet than planned");
+    }
     truth_->Append([&truth](RowEncoder& row) { Encode(truth, row); });
   }
 
@@ -194,6 +197,7 @@ class RunRecorder::Impl {
     for (const auto& [name, text] : plan_.attributes) WriteAttribute(file_.get(), name, text);
     WriteAttribute(file_.get(), "estimators", plan_.estimators);
     WriteAttribute(file_.get(), "wheels", plan_.wheels);
+    WriteAttribute(file_.get(), "feet", plan_.feet);
     WriteAttribute(file_.get(), "sensors", SensorNames());
   }
 
@@ -230,7 +234,7 @@ class RunRecorder::Impl {
     return table;
   }
 
-  void MakeTruth() { truth_.emplace(MakeTable("truth", TruthColumns(plan_.wheels))); }
+  void MakeTruth() { truth_.emplace(MakeTable("truth", TruthColumns(plan_.wheels, plan_.feet))); }
 
   void MakeMeasurements() {
     MakeGroup("measurements");

@@ -11,7 +11,10 @@ std::span<const Choice<sim::TerrainKind>> Choices() {
       {Kind::kFlat, "flat", "a plane"},
       {Kind::kSlope, "slope", "an inclined plane"},
       {Kind::kRough, "rough", "smooth random hills of a given RMS height, new ones for every seed"},
-      {Kind::kKerbs, "kerbs", "boxes across the path on a plane"}};
+      {Kind::kKerbs, "kerbs", "boxes across the path on a plane"},
+      {Kind::kStairs, "stairs", "flights up and down along x, for legs"},
+      {Kind::kDebris, "debris", "bars, bricks and boards on a plane, for legs"},
+      {Kind::kGravel, "gravel", "stones of one size side by side, for legs"}};
   return kChoices;
 }
 
@@ -58,11 +61,12 @@ std::span<const Choice<sim::SensorType>> Choices() {
   using Type = sim::SensorType;
   static const std::vector<Choice<Type>> kChoices{
       {Type::kImu, "imu", "gyroscope and accelerometer"},
-      {Type::kEncoders, "encoders", "rotary encoders of all wheels"},
+      {Type::kEncoders, "encoders", "rotary encoders of all wheels or joints"},
       {Type::kBodyVelocity, "body_velocity", "an ideal velocity sensor with white noise"},
       {Type::kDepth, "depth", "a pressure sensor: how deep it lies"},
       {Type::kPose, "pose", "an absolute pose or position from outside, with white noise"},
-      {Type::kDvl, "dvl", "a Doppler velocity log, beam by beam"}};
+      {Type::kDvl, "dvl", "a Doppler velocity log, beam by beam"},
+      {Type::kContacts, "contacts", "which feet stand, by truth or by the gait"}};
   return kChoices;
 }
 
@@ -71,7 +75,29 @@ std::span<const Choice<sim::DriveKind>> Choices() {
   using Kind = sim::DriveKind;
   static const std::vector<Choice<Kind>> kChoices{
       {Kind::kSkidSteer, "skid_steer", "wheels on the ground, one motor a side"},
-      {Kind::kUnderwater, "underwater", "thrusters in the sea"}};
+      {Kind::kUnderwater, "underwater", "thrusters in the sea"},
+      {Kind::kLegged, "legged", "legs of three joints each, walking blind"}};
+  return kChoices;
+}
+
+template <>
+std::span<const Choice<sim::GaitKind>> Choices() {
+  using Kind = sim::GaitKind;
+  static const std::vector<Choice<Kind>> kChoices{
+      {Kind::kTrot, "trot", "diagonal pairs"},
+      {Kind::kWalk, "walk", "one foot after the other"},
+      {Kind::kPace, "pace", "pairs of a side"},
+      {Kind::kPronk, "pronk", "all feet at once"},
+      {Kind::kBound, "bound", "front feet, then rear feet"}};
+  return kChoices;
+}
+
+template <>
+std::span<const Choice<sim::ContactSource>> Choices() {
+  using Source = sim::ContactSource;
+  static const std::vector<Choice<Source>> kChoices{
+      {Source::kTruth, "truth", "the true contacts"},
+      {Source::kGait, "gait", "the schedule of the walking controller"}};
   return kChoices;
 }
 

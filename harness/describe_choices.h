@@ -35,6 +35,10 @@ std::span<const Choice<sim::SensorType>> Choices();
 template <>
 std::span<const Choice<sim::DriveKind>> Choices();
 template <>
+std::span<const Choice<sim::GaitKind>> Choices();
+template <>
+std::span<const Choice<sim::ContactSource>> Choices();
+template <>
 std::span<const Choice<sim::MissionKind>> Choices();
 template <>
 std::span<const Choice<sim::FeatureKind>> Choices();

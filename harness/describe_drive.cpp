@@ -24,6 +24,8 @@ sim::DriveConfig DefaultDrive(sim::DriveKind kind) {
       return sim::SkidSteerConfig{};
     case sim::DriveKind::kUnderwater:
       return sim::UnderwaterConfig{};
+    case sim::DriveKind::kLegged:
+      return sim::LeggedConfig{};
   }
   return sim::SkidSteerConfig{};
 }

@@ -94,6 +94,28 @@ void DescribeKind(Archive& a, sim::UnderwaterConfig& u) {
   a.Field("autopilot", u.autopilot, "Gains of the control loops");
 }
 
+template <class Archive>
+void DescribeKind(Archive& a, sim::LeggedConfig& l) {
+  using Legged = sim::LeggedConfig;
+  a.Field("feet", l.feet, "URDF links: front right, front left, rear right, rear left");
+  a.Field("foot_radius_m", l.foot_radius_m, "Of the sphere around a foot's origin",
+          Within(Legged::kFootRadius));
+  a.Field("armature_kg_m2", l.armature_kg_m2,
+          "Reflected inertia of a leg's motors, from the body outwards", Within(Legged::kArmature));
+  a.Field("damping_n_m_s", l.damping_n_m_s, "Viscous friction of its joints",
+          Within(Legged::kFriction));
+  a.Field("friction_n_m", l.friction_n_m, "Dry friction of its joints", Within(Legged::kFriction));
+  a.Field("stand_angles_rad", l.stand_angles_rad, "Its joints when it stands",
+          Within(Legged::kAngle));
+  a.Field("swing_stiffness_n_m", l.swing_stiffness_n_m, "What guides a foot through the air",
+          Within(Legged::kStiffness));
+  a.Field("swing_damping_n_s_m", l.swing_damping_n_s_m, "Likewise", Within(Legged::kDamping));
+  a.Field("max_acceleration_m_s2", l.max_acceleration_m_s2, "Ramp of the commanded velocity",
+          Within(Legged::kAcceleration));
+  a.Field("max_yaw_acceleration_rad_s2", l.max_yaw_acceleration_rad_s2,
+          "Ramp of the commanded turn rate", Within(Legged::kAcceleration));
+}
+
 /// What a robot's drive is before anything is written.
 sim::DriveConfig DefaultDrive(sim::DriveKind kind);
 

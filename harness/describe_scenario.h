@@ -25,8 +25,15 @@ void Describe(Archive& a, NominalWheels& w) {
 }
 
 template <class Archive>
+void Describe(Archive& a, NominalLegs& l) {
+  a.Field("encoders", l.encoders, "The sensor that reports the joints; empty: no legs");
+  a.Field("contacts", l.contacts, "The sensor that says which feet stand");
+}
+
+template <class Archive>
 void Describe(Archive& a, NominalConfig& n) {
   a.Field("wheels", n.wheels, "The drive, as a calibration finds it");
+  a.Field("legs", n.legs, "The legs that contact-aided filters use");
   a.Field("noise", n.noise, "The noise of estimators with `noise: nominal`");
 }
 
@@ -103,15 +110,20 @@ void DescribeSimulation(Archive& a, Scenario& s) {
   a.Field("duration_s", s.duration_s, "Simulated time", AboveUpTo(0, 1e5));
   a.Field("drive", s.drive, "Truth: what moves the robot");
   a.Field("world", s.world, "Truth: the ground, the water and the physics");
+  const bool walks = sim::KindOf(s.drive) == sim::DriveKind::kLegged;
+  if (Archive::kListsAll || walks) {
+    a.Field("control", s.world.control, "Truth: how a robot on legs walks");
+  }
   const bool swims = sim::KindOf(s.drive) == sim::DriveKind::kUnderwater;
   if (Archive::kListsAll || !swims) {
-    a.Field("motion", s.world.motion, "Truth: what the driver of a robot on wheels does");
+    a.Field("motion", s.world.motion, "Truth: what a robot on wheels or legs is asked to do");
   }
   if (Archive::kListsAll || swims) {
     a.Field("mission", s.world.mission, "Truth: what an underwater vehicle does");
   }
-  // The other one is refused with a sentence of its own.
+  // The others are refused with a sentence of their own.
   if (!Archive::kListsAll) a.Directive(swims ? "motion" : "mission", "");
+  if (!Archive::kListsAll && !walks) a.Directive("control", "");
   a.Field("actual", s.world.actual, "Truth: how the simulated robot differs from the nominal one");
   a.Removable("sensors", s.sensors,
               "Truth: what the sensors send; `off` removes one of the robot's");

@@ -74,6 +74,8 @@ sim::SensorErrors DefaultErrors(sim::SensorType type) {
       return sim::PoseConfig{};
     case sim::SensorType::kDvl:
       return sim::DvlConfig{};
+    case sim::SensorType::kContacts:
+      return sim::ContactSensorConfig{};
   }
   return sim::ImuConfig{};
 }

@@ -114,6 +114,12 @@ void DescribeErrors(Archive& a, sim::PoseConfig& e) {
   a.Field("orientation", e.orientation, "false: it knows its position alone");
 }
 
+template <class Archive>
+void DescribeErrors(Archive& a, sim::ContactSensorConfig& e) {
+  DescribeTiming(a, e.timing);
+  a.Field("source", e.source, "Where it knows it from");
+}
+
 template <sim::SensorType type, class Errors>
 inline constexpr bool kIsOfType =
     std::is_same_v<std::variant_alternative_t<static_cast<std::size_t>(type), sim::SensorErrors>,
@@ -123,7 +129,8 @@ static_assert(kIsOfType<sim::SensorType::kImu, sim::ImuConfig> &&
               kIsOfType<sim::SensorType::kBodyVelocity, sim::BodyVelocityConfig> &&
               kIsOfType<sim::SensorType::kDepth, sim::DepthConfig> &&
               kIsOfType<sim::SensorType::kPose, sim::PoseConfig> &&
-              kIsOfType<sim::SensorType::kDvl, sim::DvlConfig>);
+              kIsOfType<sim::SensorType::kDvl, sim::DvlConfig> &&
+              kIsOfType<sim::SensorType::kContacts, sim::ContactSensorConfig>);
 
 /// The errors that a sensor of this type has before anything is written.
 sim::SensorErrors DefaultErrors(sim::SensorType type);

@@ -1,46 +1,31 @@
 #pragma once
 
-#include "reckon/harness/describe_choices.h"
-#include "reckon/harness/describe_traits.h"
+#include "reckon/harness/describe_terrain.h"
 
 namespace reckon::harness {
 
 template <class Archive>
-void Describe(Archive& a, sim::TerrainConfig& t) {
-  using Kind = sim::TerrainKind;
-  using Terrain = sim::TerrainConfig;
-  a.Kind("kind", t.kind, Choices<Kind>(), "The form of the ground");
-  a.Field("friction", t.friction, "Friction coefficient of the tyres", Within(Terrain::kFriction));
-  a.Field("rolling_resistance", t.rolling_resistance,
-          "Rolling resistance coefficient (0.015 hard ground, 0.05 grass)",
-          Within(Terrain::kRollingResistance));
-  a.Field("half_size_m", t.half_size_m,
-          "The map is the square |x|, |y| <= half_size_m; leaving it ends the run",
-          Within(t.kind == Kind::kRough ? Terrain::kRoughHalfSize : Terrain::kHalfSize));
-  if (t.kind == Kind::kSlope) {
-    a.Field("angle_deg", t.angle_deg, "Inclination", Within(Terrain::kAngle));
-    a.Field("uphill_deg", t.uphill_deg, "Direction of ascent, from +x towards +y",
-            Within(Terrain::kUphill));
-  }
-  if (t.kind == Kind::kRough) {
-    a.Field("rms_m", t.rms_m, "Standard deviation of the height", Within(Terrain::kRms));
-    a.Field("shortest_wave_m", t.shortest_wave_m, "Shortest wavelength", Within(Terrain::kWave));
-    a.Field("longest_wave_m", t.longest_wave_m, "Longest wavelength", Within(Terrain::kWave));
-  }
-  if (t.kind == Kind::kKerbs) {
-    a.Field("kerb_height_m", t.kerb_height_m, "Height of a kerb", Within(Terrain::kKerbHeight));
-    a.Field("kerb_width_m", t.kerb_width_m, "Width of a kerb along x", Within(Terrain::kKerbWidth));
-    a.Field("kerb_spacing_m", t.kerb_spacing_m, "Distance from kerb to kerb along x",
-            Within(Terrain::kKerbSpacing));
-  }
+void Describe(Archive& a, sim::GaitConfig& g) {
+  using Gait = sim::GaitConfig;
+  a.Field("kind", g.kind, "Which feet go together");
+  a.Field("period_s", g.period_s, "Of a stride; not given: the gait's own", Within(Gait::kPeriod));
+  a.Field("duty", g.duty, "Share of a stride that a foot is down; likewise", Within(Gait::kDuty));
+  a.Field("offsets", g.offsets, "Phase of each foot, in strides; likewise", Within(Gait::kOffset));
+  a.Field("lift_m", g.lift_m, "How high a foot swings; likewise", Within(Gait::kLift));
 }
 
 template <class Archive>
-void Describe(Archive& a, sim::PatchConfig& p) {
-  a.Field("box_m", p.box_m, "Centre x, centre y, size along x, size along y",
-          Within(sim::PatchConfig::kBox), Need::kHere);
-  a.Field("friction", p.friction, "Friction coefficient inside",
-          Within(sim::TerrainConfig::kFriction));
+void Describe(Archive& a, sim::ControlConfig& c) {
+  a.Field("gait", c.gait, "When which foot is down");
+  a.Field("in_air", c.in_air, "Hung up by its trunk: it walks without touching anything");
+}
+
+template <class Archive>
+void Describe(Archive& a, sim::PushConfig& p) {
+  a.Field("impulse_n_s", p.impulse_n_s, "Of one push, level and in a random direction",
+          Within(sim::PushConfig::kImpulse));
+  a.Field("every_s", p.every_s, "From push to push", Within(sim::PushConfig::kEvery));
+  a.Field("for_s", p.for_s, "How long one lasts", Within(sim::PushConfig::kFor));
 }
 
 template <class Archive>
@@ -83,6 +68,7 @@ void Describe(Archive& a, sim::WorldConfig& w) {
           Within(sim::WorldConfig::kSettle));
   a.Field("terrain", w.terrain, "The ground, or the form of the seabed");
   a.Field("patches", w.patches, "Rectangles with another friction; later ones win");
+  a.Field("pushes", w.pushes, "Impulses on the body of a robot on legs");
   a.Field("water", w.water, "The sea, of an underwater vehicle; its surface is z = 0");
 }
 
@@ -92,6 +78,11 @@ void Describe(Archive& a, sim::MotionConfig& m) {
   a.Kind("path", m.path, Choices<Kind>(), "What the driver is asked to do");
   if (m.path != Kind::kStand) {
     a.Field("start_s", m.start_s, "The robot stands still until then", Between(0, 1e5));
+  }
+  if (m.path != Kind::kStand) {
+    a.Field("go_s", m.go_s, "Stands still for `stop_s` after each `go_s` of going; 0: never",
+            Between(0, 1e5));
+    a.Field("stop_s", m.stop_s, "Likewise", Between(0, 1e5));
   }
   if (m.path != Kind::kStand && m.path != Kind::kVelocityProfile) {
     a.Field("speed_m_s", m.speed_m_s, "Cruising speed", AboveUpTo(0, 20));
@@ -158,6 +149,12 @@ void Describe(Archive& a, sim::ActualConfig& c) {
           Between(0.5, 2));
   a.Field("track_scale", c.track_scale, "Factor on the distance of left and right wheels",
           Between(0.5, 2));
+  a.Field("leg_offset_m", c.leg_offset_m,
+          "How much longer each segment of every leg is, from the body outwards", Between(-1, 1));
+  a.Field("foot_radius_offset_m", c.foot_radius_offset_m, "How much larger the feet are",
+          Between(-0.5, 0.5));
+  a.Field("encoder_offset_rad", c.encoder_offset_rad, "What a joint's encoder reads too much",
+          Between(-3.2, 3.2));
   a.Field("mass_scale", c.mass_scale, "Factor on the base link's mass", Between(0.1, 10));
   a.Field("com_offset_m", c.com_offset_m, "Shift of the base link's centre of mass, body axes",
           Between(-1, 1));

@@ -8,8 +8,10 @@
 #include <stdexcept>
 
 #include "reckon/sim/hydrodynamics.h"
+#include "reckon/sim/legged_body.h"
 #include "reckon/sim/seabed.h"
 #include "reckon/sim/thrusters.h"
+#include "reckon/sim/walking_controller.h"
 
 namespace reckon::harness {
 namespace {
@@ -29,7 +31,12 @@ class DriveRules {
     } else if (const auto* swimmer = std::get_if<sim::UnderwaterConfig>(&s_.drive)) {
       Forbid("/motion", "this robot swims: its `mission:` says where it goes");
       CheckSwimmer(*swimmer);
+    } else if (const auto* walker = std::get_if<sim::LeggedConfig>(&s_.drive)) {
+      Forbid("/mission", "this robot walks: its `motion:` says where it goes");
+      CheckMotion();
+      CheckWalker(*walker, urdf);
     }
+    if (sim::KindOf(s_.drive) != sim::DriveKind::kLegged) CheckHasNoLegs();
   }
 
  private:
@@ -104,13 +111,57 @@ class DriveRules {
     }
   }
 
-  void CheckSwimmer(const sim::UnderwaterConfig& config) const {
+  void CheckWalker(const sim::LeggedConfig& config, const models::UrdfRobot& urdf) const {
+    CheckHasNoWheels();
+    book_.Require(!s_.world.water.has_value(), "/world/water",
+                  "no water: this robot walks on the ground");
+    book_.Require(s_.world.terrain.kind != sim::TerrainKind::kKerbs, "/world/terrain/kind",
+                  "flat, slope, rough, stairs, debris or gravel: kerbs are for wheels");
+    for (const std::string& foot : config.feet) {
+      Names links;
+      for (const auto& link : urdf.links()) links.push_back(link.name);
+      book_.RequireOneOf(foot, links, "/drive/feet", "link in the URDF called");
+      if (!Holds(links, foot)) return;
+    }
+    Try("/drive", [&] {
+      const sim::LeggedBody body(urdf, config);
+      Try("/control/gait", [&] {
+        const sim::WalkingController check(body, config, s_.world.control, s_.world.gravity_m_s2);
+      });
+      for (const auto& [joint, offset] : s_.world.actual.encoder_offset_rad) {
+        book_.RequireOneOf(joint, body.joints(), "/actual/encoder_offset_rad", "joint of a leg");
+      }
+    });
+  }
+
+  void CheckHasNoLegs() const {
+    Forbid("/control", "this robot has no legs to walk on");
     const auto& actual = s_.world.actual;
-    book_.Require(s_.world.patches.empty(), "/world/patches", "none: they are for wheels");
+    using Kind = sim::TerrainKind;
+    const Kind kind = s_.world.terrain.kind;
+    book_.Require(kind != Kind::kStairs && kind != Kind::kDebris && kind != Kind::kGravel,
+                  "/world/terrain/kind", "ground for a robot without legs");
+    book_.Require(!s_.world.pushes.has_value(), "/world/pushes", "none: they are for legs");
+    book_.Require(actual.leg_offset_m.empty() && actual.foot_radius_offset_m == 0.0 &&
+                      actual.encoder_offset_rad.empty(),
+                  "/actual", "nothing of legs: this robot has none");
+    for (const auto& [name, sensor] : s_.sensors) {
+      book_.Require(!std::holds_alternative<sim::ContactSensorConfig>(sensor.errors),
+                    "/sensors/" + name + "/type", "no contacts: this robot has no feet");
+    }
+  }
+
+  void CheckHasNoWheels() const {
+    const auto& actual = s_.world.actual;
     book_.Require(actual.wheel_radius_scale == sim::ActualConfig{}.wheel_radius_scale,
                   "/actual/wheel_radius_scale", "nothing: this robot has no wheels");
     book_.Require(actual.track_scale == 1.0, "/actual/track_scale",
                   "nothing: this robot has no wheels");
+  }
+
+  void CheckSwimmer(const sim::UnderwaterConfig& config) const {
+    CheckHasNoWheels();
+    book_.Require(s_.world.patches.empty(), "/world/patches", "none: they are for wheels");
     for (const auto& [name, sensor] : s_.sensors) {
       book_.Require(!std::holds_alternative<sim::EncoderConfig>(sensor.errors),
                     "/sensors/" + name + "/type", "no encoders: this robot has no wheels");

@@ -10,6 +10,7 @@
 #include "reckon/harness/log_file.h"
 #include "reckon/harness/scenario_paths.h"
 #include "reckon/harness/yaml_load.h"
+#include "reckon/sim/legged_body.h"
 
 namespace reckon::harness {
 
@@ -24,6 +25,8 @@ void Describe(Archive& a, RobotFile& r) {
 }
 
 namespace {
+
+using Names = std::vector<std::string>;
 
 models::Pose ActualPose(const models::Pose& X_BS, const SensorConfig& sensor,
                         const sim::ActualConfig& actual) {
@@ -41,8 +44,12 @@ models::TimeNs PeriodOf(const SensorConfig& sensor) {
   return std::llround(1e9 / std::visit(rate, sensor.errors));
 }
 
-/// The wheels that turn, left then right, front to rear; none for a robot without.
-std::vector<std::string> JointsOf(const sim::DriveConfig& drive) {
+/// What encoders read: the wheels, left then right, front to rear, or the joints of the legs, leg
+/// by leg; nothing for a robot without.
+std::vector<std::string> JointsOf(const sim::DriveConfig& drive, const models::UrdfRobot& urdf) {
+  if (const auto* legged = std::get_if<sim::LeggedConfig>(&drive)) {
+    return sim::LegJoints(urdf, legged->feet);
+  }
   const auto* wheels = std::get_if<sim::SkidSteerConfig>(&drive);
   if (wheels == nullptr) return {};
   std::vector<std::string> joints = wheels->left_joints;
@@ -62,6 +69,29 @@ models::WheelDrive WheelsOf(const Scenario& scenario) {
   wheels.effective_track_m = nominal.effective_track_m;
   wheels.X_BS.p = Eigen::Vector3d(nominal.origin_m[0], nominal.origin_m[1], nominal.origin_m[2]);
   return wheels;
+}
+
+models::LegSet LegsOf(const Scenario& scenario, const models::UrdfRobot& urdf,
+                      const std::vector<std::string>& joints) {
+  models::LegSet legs{scenario.nominal.legs.encoders, scenario.nominal.legs.contacts, {}};
+  for (const std::string& foot : std::get<sim::LeggedConfig>(scenario.drive).feet) {
+    legs.legs.emplace_back(urdf, foot, joints);
+  }
+  return legs;
+}
+
+/// What the actual robot's encoders read too much goes with their errors.
+sim::SensorErrors ActualErrors(const SensorConfig& sensor, const sim::ActualConfig& actual,
+                               const std::vector<std::string>& joints) {
+  sim::SensorErrors errors = sensor.errors;
+  auto* encoders = std::get_if<sim::EncoderConfig>(&errors);
+  if (encoders == nullptr || actual.encoder_offset_rad.empty()) return errors;
+  for (const std::string& joint : joints) {
+    const auto found = actual.encoder_offset_rad.find(joint);
+    const bool has = found != actual.encoder_offset_rad.end();
+    encoders->actual_offset_rad.push_back(has ? found->second : 0.0);
+  }
+  return errors;
 }
 
 Robot RobotOf(const LoadedLog& log) {
@@ -92,18 +122,25 @@ Robot MakeRobot(const Scenario& scenario, const models::UrdfRobot& urdf) {
   Robot robot;
   robot.simulated.name = scenario.robot;
   robot.simulated.drive = scenario.drive;
-  robot.joints = JointsOf(scenario.drive);
+  if (const auto* legged = std::get_if<sim::LeggedConfig>(&scenario.drive)) {
+    robot.feet = legged->feet;
+  }
+  robot.joints = JointsOf(scenario.drive, urdf);
   for (const auto& [name, sensor] : scenario.sensors) {
     const models::Pose X_BS = urdf.LinkPose(sensor.frame);
     const auto id = static_cast<models::SensorId>(robot.sensors.size());
     robot.nominal.sensors.push_back({name, sim::KindOf(sensor.errors), X_BS, PeriodOf(sensor)});
-    const bool encoders = robot.nominal.sensors.back().kind == models::SensorKind::kEncoders;
-    robot.channels.push_back(encoders ? robot.joints : std::vector<std::string>());
-    robot.sensors.push_back(
-        {name, id, ActualPose(X_BS, sensor, scenario.world.actual), sensor.errors});
+    const models::SensorKind kind = robot.nominal.sensors.back().kind;
+    robot.channels.push_back(kind == models::SensorKind::kEncoders   ? robot.joints
+                             : kind == models::SensorKind::kContacts ? robot.feet
+                                                                     : Names());
+    robot.sensors.push_back({name, id, ActualPose(X_BS, sensor, scenario.world.actual),
+                             ActualErrors(sensor, scenario.world.actual, robot.joints)});
   }
   const bool has_wheels = scenario.sensors.contains(scenario.nominal.wheels.encoders);
   if (has_wheels) robot.nominal.wheels = WheelsOf(scenario);
+  const bool has_legs = scenario.sensors.contains(scenario.nominal.legs.encoders);
+  if (has_legs) robot.nominal.legs = LegsOf(scenario, urdf, robot.joints);
   return robot;
 }
 

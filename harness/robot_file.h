@@ -40,7 +40,8 @@ struct Robot {
   sim::RobotConfig simulated;
   models::Suite nominal;                 ///< by SensorId: the sensors in the order of their names
   std::vector<sim::SensorSpec> sensors;  ///< by SensorId: where they really are and what they do
-  std::vector<std::string> joints;       ///< wheels: left then right, front to rear
+  std::vector<std::string> joints;       ///< that encoders read: wheels, or joints leg by leg
+  std::vector<std::string> feet;         ///< links, in the order of the legs
   std::vector<std::vector<std::string>> channels;  ///< by SensorId: names of a sample's entries
 };
 

@@ -50,7 +50,9 @@ ground_truth::RecordingPlan PlanOf(const Scenario& scenario, const Robot& robot,
     plan.sensors.push_back({sensor, robot.channels[plan.sensors.size()]});
   }
   for (const auto& [name, config] : scenario.estimators) plan.estimators.push_back(name);
-  plan.wheels = robot.joints;
+  // Legs are no wheels: what their joints do, encoders tell.
+  if (robot.feet.empty()) plan.wheels = robot.joints;
+  plan.feet = robot.feet;
   plan.truth = scenario.record.truth;
   plan.measurements = scenario.record.measurements;
   plan.estimates = scenario.record.estimates;

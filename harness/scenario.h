@@ -95,9 +95,16 @@ struct NominalWheels {
   std::array<double, 3> origin_m{};  ///< in B: where forward speed and nonholonomic rows hold
 };
 
+/// The legs that the estimators believe in; their kinematics are the URDF's.
+struct NominalLegs {
+  std::string encoders;  ///< the sensor that reports the joints; empty: no legs
+  std::string contacts;  ///< the sensor that says which feet stand
+};
+
 /// What the estimators believe of the robot, beside its URDF.
 struct NominalConfig {
   NominalWheels wheels;
+  NominalLegs legs;
   estimator::Noise noise;  ///< of estimators with `noise: nominal`
 };
 

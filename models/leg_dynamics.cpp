@@ -21,8 +21,7 @@ void LegDynamics::AddMass(const UrdfInertial& inertial, const Pose& X_LB, Link& 
   const double mass = link.mass_kg + inertial.mass_kg;
   const Vector3d p = X_LB * inertial.p_LC;
   const Vector3d centre = (link.mass_kg * link.p_LC + inertial.mass_kg * p) / mass;
-  link.I_C += Shifted(link.mass_kg, link.p_LC - centre) +
-              Shifted(inertial.mass_kg, p - centre) +
+  link.I_C += Shifted(link.mass_kg, link.p_LC - centre) + Shifted(inertial.mass_kg, p - centre) +
               X_LB.R * inertial.I_C_L * X_LB.R.transpose();
   link.mass_kg = mass;
   link.p_LC = centre;
@@ -62,8 +61,8 @@ LegDynamics::LegDynamics(const UrdfRobot& robot, const std::string& foot,
 LegVector LegDynamics::InverseDynamics(const LegVector& q, const LegVector& dq,
                                        const LegVector& ddq, const BodyMotion& body) const {
   assert(q.size() == joints() && dq.size() == joints() && ddq.size() == joints());
-  std::array<Matrix3d, kMaxLegJoints> R;           // from a link to its parent
-  std::array<Vector3d, kMaxLegJoints> p, f, n;     // joint's origin in the parent; force, moment
+  std::array<Matrix3d, kMaxLegJoints> R;        // from a link to its parent
+  std::array<Vector3d, kMaxLegJoints> p, f, n;  // joint's origin in the parent; force, moment
   Vector3d w = body.w_rad_s, dw = body.dw_rad_s2, a = body.specific_force_m_s2;
   const std::size_t count = chain_.size();
   for (std::size_t k = 0; k < count; ++k) {

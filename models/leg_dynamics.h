@@ -51,8 +51,8 @@ class LegDynamics {
     Eigen::Vector3d axis;
     bool turns;
     double mass_kg = 0.0;
-    Eigen::Vector3d p_LC = Eigen::Vector3d::Zero();   ///< centre of mass
-    Eigen::Matrix3d I_C = Eigen::Matrix3d::Zero();    ///< about it
+    Eigen::Vector3d p_LC = Eigen::Vector3d::Zero();  ///< centre of mass
+    Eigen::Matrix3d I_C = Eigen::Matrix3d::Zero();   ///< about it
     double armature_kg_m2 = 0.0;
   };
 

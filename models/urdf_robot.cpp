@@ -114,6 +114,17 @@ std::optional<UrdfInertial> ReadInertial(const urdf::Link& link, const std::stri
   return UrdfInertial{from.mass, X_LC.p, X_LC.R * I_C * X_LC.R.transpose()};
 }
 
+/// The parser does not mind a link with two parents.
+void CheckIsNew(const std::vector<UrdfLink>& links, const urdf::Link& link,
+                const std::string& source) {
+  for (const UrdfLink& known : links) {
+    if (known.name != link.name) continue;
+    Refuse(source, "link '" + link.name +
+                       "' is the child of more than one joint: that closes a chain, and a robot "
+                       "must be a tree");
+  }
+}
+
 JointType ToType(const urdf::Joint& joint, const std::string& source) {
   switch (joint.type) {
     case urdf::Joint::FIXED:
@@ -180,6 +191,7 @@ UrdfRobot UrdfRobot::FromText(const std::string& xml, const std::string& source)
   robot.source_ = source;
   const auto add = [&](const auto& self, const urdf::Link& link, int parent_joint) -> void {
     CheckGeometry(link, source);
+    CheckIsNew(robot.links_, link, source);
     const int index = static_cast<int>(robot.links_.size());
     robot.links_.push_back({link.name, parent_joint, ReadInertial(link, source)});
     for (const auto& joint : link.child_joints) {

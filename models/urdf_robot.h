@@ -35,8 +35,8 @@ struct UrdfJoint {
   int parent = -1, child = -1;  ///< indices into links()
   Pose X_PJ;
   Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< unit vector in the child's frame
-  double lower = 0.0, upper = 0.0;  ///< of a revolute [rad] or prismatic [m] joint
-  double effort = 0.0;              ///< most that its motor gives [N m, N]; 0: not told
+  double lower = 0.0, upper = 0.0;                  ///< of a revolute [rad] or prismatic [m] joint
+  double effort = 0.0;  ///< most that its motor gives [N m, N]; 0: not told
 };
 
 /// A robot as its URDF describes it: the tree of links and joints, root first, every parent before
@@ -46,7 +46,8 @@ class UrdfRobot {
   /// Reads a file, or its text. Throws std::invalid_argument with a sentence that names the file
   /// (or `source`) and the link or joint at fault: unreadable or ill-formed text, a link with
   /// geometry but without <inertial>, a mass or size that is not positive, an inertia no body can
-  /// have, a joint type other than those above, limits whose lower end is not below the upper one.
+  /// have, a joint type other than those above, limits whose lower end is not below the upper one,
+  /// a chain of joints that closes.
   static UrdfRobot FromFile(const std::string& path);
   static UrdfRobot FromText(const std::string& xml, const std::string& source = "URDF");
 

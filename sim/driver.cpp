@@ -62,10 +62,15 @@ Driver::Driver(const MotionConfig& motion) : motion_(motion), path_(MakePath(mot
 }
 
 DriveCommand Driver::Update(double t_s, const Eigen::Vector2d& p, double yaw_rad) {
-  if (t_s < motion_.start_s) return {};
+  if (t_s < motion_.start_s || Pauses(t_s)) return {};
   if (path_) return Follow(p, yaw_rad);
   if (motion_.path == PathKind::kVelocityProfile) return FromProfile(t_s);
   return {};
+}
+
+bool Driver::Pauses(double t_s) const {
+  const double cycle = motion_.go_s + motion_.stop_s;
+  return motion_.go_s > 0.0 && std::fmod(t_s - motion_.start_s, cycle) >= motion_.go_s;
 }
 
 DriveCommand Driver::Follow(const Eigen::Vector2d& p, double yaw_rad) {

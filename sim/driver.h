@@ -30,6 +30,7 @@ class Driver {
   DriveCommand Update(double t_s, const Eigen::Vector2d& p, double yaw_rad);
 
  private:
+  bool Pauses(double t_s) const;
   DriveCommand Follow(const Eigen::Vector2d& p, double yaw_rad);
   DriveCommand FromProfile(double t_s) const;
   void AdvanceProgress(const Eigen::Vector2d& p);

@@ -43,6 +43,7 @@ Encoders::Encoders(const std::string& name, models::SensorId id, const EncoderCo
     gain_[i] = 1.0 + config.scale * scale.Normal(i, 0);
     phase_[i] = 2.0 * std::numbers::pi * phase.Uniform(i, 0);
     offset_[i] = config.offset_rad * offset.Normal(i, 0);
+    if (i < config.actual_offset_rad.size()) offset_[i] += config.actual_offset_rad[i];
   }
 }
 

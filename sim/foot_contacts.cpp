@@ -57,14 +57,16 @@ ground_truth::FeetTruth FootContacts::Read(const mjModel& model, const mjData& d
       if (contact.geom[0] != geom_[i] && contact.geom[1] != geom_[i]) continue;
       double force[6];
       mj_contactForce(&model, &data, c, force);
-      const double sign = contact.geom[1] == geom_[i] ? 1.0 : -1.0;  // the frame's x: first to second
+      const double sign =
+          contact.geom[1] == geom_[i] ? 1.0 : -1.0;  // the frame's x: first to second
       const Vector3d normal = sign * ConstVec3(contact.frame);
       const Vector3d r = ConstVec3(contact.pos) - Point(data.geom_xpos, geom_[i]);
       const Vector3d v = velocity[i].v + velocity[i].w.cross(r);
       feet.foot[i].normal_n += force[0];
       feet.foot[i].normal += force[0] * normal;
       feet.foot[i].slip_m_s += force[0] * (v - normal * normal.dot(v)).norm();
-      tangential[i] += force[1] * ConstVec3(contact.frame + 3) + force[2] * ConstVec3(contact.frame + 6);
+      tangential[i] +=
+          force[1] * ConstVec3(contact.frame + 3) + force[2] * ConstVec3(contact.frame + 6);
     }
   }
   for (int i = 0; i < count_; ++i) {
@@ -77,15 +79,16 @@ ground_truth::FeetTruth FootContacts::Read(const mjModel& model, const mjData& d
   return feet;
 }
 
-std::string FootContacts::Fallen(const mjModel& model, const mjData& data) const {
+bool FootContacts::TrunkTouches(const mjModel& model, const mjData& data) {
+  const auto of_trunk = [&model](int geom) {
+    const int body = model.geom_bodyid[geom];
+    return body != 0 && model.body_parentid[body] == 0;
+  };
   for (int c = 0; c < data.ncon; ++c) {
-    for (const int geom : data.contact[c].geom) {
-      const int body = model.geom_bodyid[geom];
-      if (body == 0 || model.body_parentid[body] != 0) continue;  // the ground; limbs may touch
-      return mj_id2name(&model, mjOBJ_BODY, body);
-    }
+    const mjContact& contact = data.contact[c];
+    if (of_trunk(contact.geom[0]) || of_trunk(contact.geom[1])) return true;
   }
-  return {};
+  return false;
 }
 
 }  // namespace reckon::sim

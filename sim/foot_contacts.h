@@ -27,8 +27,8 @@ class FootContacts {
   /// the mean of their slip, weighed by the normal forces. Does not allocate.
   ground_truth::FeetTruth Read(const mjModel& model, const mjData& data) const;
 
-  /// Whether anything else of the robot touches the ground: the name of its link.
-  std::string Fallen(const mjModel& model, const mjData& data) const;
+  /// Whether the robot's trunk touches the ground; its limbs may.
+  static bool TrunkTouches(const mjModel& model, const mjData& data);
 
  private:
   int count_;

@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 constexpr double kSmallForces = 2e-3, kSmallChanges = 2e-3;
 constexpr int kSweeps = 80;
 constexpr double kLeastShare = 0.034, kMostShare = 1.8;  // of the weight: of a foot that stands
-constexpr double kConverged = 1e-9;            // of the weight
+constexpr double kConverged = 1e-9;                      // of the weight
 /// Weights of the force's and the moment's rows for a body 0.29 m high. Two point feet make a
 /// wrench of rank five: where it must fail, it fails level, and footholds repair the velocity.
 constexpr double kForceWeights[] = {1.0, 1.0, 4.0}, kMomentWeights[] = {40.0, 40.0, 15.0};

@@ -43,9 +43,8 @@ Gait NamedGait(const GaitConfig& config, int feet, double time_scale) {
     RequireIn(GaitConfig::kOffset, offset, "control/gait", "offsets");
   }
   if (static_cast<int>(gait.offsets.size()) != feet) {
-    throw std::invalid_argument("control/gait: offsets has " +
-                                std::to_string(gait.offsets.size()) + " entries, expected one a foot, " +
-                                std::to_string(feet));
+    throw std::invalid_argument("control/gait: offsets has " + std::to_string(gait.offsets.size()) +
+                                " entries, expected one a foot, " + std::to_string(feet));
   }
   return gait;
 }
@@ -80,9 +79,8 @@ bool GaitClock::MustWait() const {
 void GaitClock::Update(double dt_s, const Contacts& contact) {
   for (int i = 0; i < feet_; ++i) legs_[i].lifted = false;
   if (!walking_) return;
-  const bool any_late = std::any_of(legs_.begin(), legs_.begin() + feet_, [](const Leg& leg) {
-    return leg.state == LegPhase::kLate;
-  });
+  const bool any_late = std::any_of(legs_.begin(), legs_.begin() + feet_,
+                                    [](const Leg& leg) { return leg.state == LegPhase::kLate; });
   if (!any_late) waited_s_ = 0.0;
   if (MustWait() && waited_s_ < kLongestWait) {
     waited_s_ += dt_s;

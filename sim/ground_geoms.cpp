@@ -7,7 +7,7 @@
 namespace reckon::sim {
 namespace {
 
-constexpr double kBasement = 1.0;                          // m under a heightfield's lowest node
+constexpr double kBasement = 1.0;                         // m under a heightfield's lowest node
 constexpr double kLeastNodes = 2.0, kMostNodes = 2000.0;  // a side
 
 }  // namespace
@@ -40,7 +40,8 @@ mjsGeom* AddHeightfield(mjSpec* spec, mjsBody* world, const std::string& name,
   for (int row = 0; row < nodes; ++row) {
     for (int column = 0; column < nodes; ++column) {
       const double step = 2.0 * half / (nodes - 1);
-      heights.push_back(static_cast<float>(samples.height(column * step - half, row * step - half)));
+      heights.push_back(
+          static_cast<float>(samples.height(column * step - half, row * step - half)));
     }
   }
   const auto [low, high] = std::minmax_element(heights.begin(), heights.end());

@@ -110,8 +110,8 @@ void LeggedBody::WeighStanding(const models::UrdfRobot& urdf) {
   });
   p_BC_ /= mass_kg_;
   for_each_mass([this](const models::UrdfInertial& body, const models::Pose& X_BL) {
-    inertia_kg_m2_ += X_BL.R * body.I_C_L * X_BL.R.transpose() +
-                      Shifted(body.mass_kg, X_BL * body.p_LC - p_BC_);
+    inertia_kg_m2_ +=
+        X_BL.R * body.I_C_L * X_BL.R.transpose() + Shifted(body.mass_kg, X_BL * body.p_LC - p_BC_);
   });
 }
 

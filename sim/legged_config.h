@@ -32,16 +32,15 @@ enum class GaitKind { kTrot, kWalk, kPace, kPronk, kBound };
 /// When which foot is down. What is not given is the gait's own (`NamedGait`).
 struct GaitConfig {
   GaitKind kind = GaitKind::kTrot;
-  std::optional<double> period_s, duty;         ///< of a stride; its share in stance
-  std::optional<std::vector<double>> offsets;   ///< of each foot's phase, in strides
-  std::optional<double> lift_m;                 ///< how high a foot swings
+  std::optional<double> period_s, duty;        ///< of a stride; its share in stance
+  std::optional<std::vector<double>> offsets;  ///< of each foot's phase, in strides
+  std::optional<double> lift_m;                ///< how high a foot swings
 
   static constexpr Range kPeriod{0.1, 5}, kDuty{0.1, 0.95}, kOffset{0, 1}, kLift = AboveUpTo(0, 1);
 };
 
 /// The walking controller.
 struct ControlConfig {
-  std::string state = "truth";  ///< what it knows of itself, or the estimator that tells it
   GaitConfig gait;
   bool in_air = false;  ///< hung up by its trunk: it walks without touching anything
 };

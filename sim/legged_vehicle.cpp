@@ -18,15 +18,17 @@ namespace {
 using Eigen::Vector3d;
 using ConstVec3 = Eigen::Map<const Vector3d>;
 
-constexpr double kStillSpeed = 0.02;     // m/s, rad/s
-constexpr double kDrop = 0.003;         // m above the ground at first
-constexpr double kFeels = 0.09;         // of the weight: a foot that presses so hard stands
+constexpr double kStillSpeed = 0.02;  // m/s, rad/s
+constexpr double kDrop = 0.003;       // m above the ground at first
+constexpr double kFeels = 0.09;       // of the weight: a foot that presses so hard stands
 constexpr double kFallenTiltDeg = 60.0;
 constexpr double kHangingHeight = 3.0;  // times its standing height
 constexpr double kRopeHz = 3.0;         // of a trunk that is hung up
 constexpr double kRopeDamping = 0.7;
 
-const LeggedConfig& DriveOf(const RobotConfig& robot) { return std::get<LeggedConfig>(robot.drive); }
+const LeggedConfig& DriveOf(const RobotConfig& robot) {
+  return std::get<LeggedConfig>(robot.drive);
+}
 
 /// Over x = y = 0, yaw 0 and leaning as the ground under the feet does on the whole, at the least
 /// height at which no foot is in it.
@@ -142,8 +144,8 @@ void LeggedVehicle::Push(models::TimeNs t_ns) {
   const double t_s = models::Seconds(t_ns), count = std::floor(t_s / pushes.every_s);
   const bool pushed = count >= 1.0 && t_s - count * pushes.every_s < pushes.for_s;
   double* force = data_->xfrc_applied + static_cast<std::ptrdiff_t>(6 * base_body_);
-  const double angle =
-      2.0 * std::numbers::pi * push_draws_.Uniform(0, static_cast<std::uint64_t>(std::max(0.0, count)));
+  const double angle = 2.0 * std::numbers::pi *
+                       push_draws_.Uniform(0, static_cast<std::uint64_t>(std::max(0.0, count)));
   const double strength = pushed ? pushes.impulse_n_s / pushes.for_s : 0.0;
   force[0] = strength * std::cos(angle);
   force[1] = strength * std::sin(angle);
@@ -189,9 +191,8 @@ std::optional<std::string> LeggedVehicle::Trouble(const VehicleState& state) con
   if (auto outside = terrain_.Outside(p.x(), p.y())) return outside;
   static const double least_upright = std::cos(kFallenTiltDeg * std::numbers::pi / 180.0);
   if (R(2, 2) < least_upright) return "the robot fell: it tilted by more than 60 degrees";
-  if (const auto link = contacts_.Fallen(*model_, *data_); !link.empty()) {
-    return "the robot fell: its " + link + " touched the ground";
-  }
+  if (FootContacts::TrunkTouches(*model_, *data_))
+    return "the robot fell: its trunk hit the ground";
   return std::nullopt;
 }
 

@@ -51,6 +51,9 @@ struct ImuConfig {
 
 /// Rotary encoders of all wheels (or joints), `sensor_models.md` 3.3.
 struct EncoderConfig {
+  /// Beside `offset_rad`, what each reads too much (empty: nothing): of the actual robot, not a
+  /// key.
+  std::vector<double> actual_offset_rad = {};
   Timing timing{.rate_hz = 50.0};
   double counts_per_rad = 0.0;    ///< 0: not quantised
   double noise_rad = 0.0;         ///< white, per reading, before quantisation
@@ -112,12 +115,23 @@ struct DvlConfig {
   static constexpr Range kAltitude{0, 10000}, kMinBeams{3, 8};
 };
 
+enum class ContactSource {
+  kTruth,  ///< the feet that press on the ground
+  kGait,   ///< the feet that the walking controller's schedule has down
+};
+
+/// Which feet stand, without error.
+struct ContactSensorConfig {
+  Timing timing{.rate_hz = 500.0};
+  ContactSource source = ContactSource::kTruth;
+};
+
 /// The sensors that can be simulated. Several types may send the same kind of sample.
-enum class SensorType { kImu, kEncoders, kBodyVelocity, kDepth, kPose, kDvl };
+enum class SensorType { kImu, kEncoders, kBodyVelocity, kDepth, kPose, kDvl, kContacts };
 
 /// What a sensor of each type gets wrong, in the order of `SensorType`.
-using SensorErrors =
-    std::variant<ImuConfig, EncoderConfig, BodyVelocityConfig, DepthConfig, PoseConfig, DvlConfig>;
+using SensorErrors = std::variant<ImuConfig, EncoderConfig, BodyVelocityConfig, DepthConfig,
+                                  PoseConfig, DvlConfig, ContactSensorConfig>;
 
 inline SensorType TypeOf(const SensorErrors& errors) {
   return static_cast<SensorType>(errors.index());

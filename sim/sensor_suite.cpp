@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "reckon/sim/body_velocity_sensor.h"
+#include "reckon/sim/contact_sensor.h"
 #include "reckon/sim/depth_sensor.h"
 #include "reckon/sim/dvl.h"
 #include "reckon/sim/encoders.h"
@@ -41,6 +42,9 @@ struct Maker {
   }
   std::unique_ptr<Sensor> operator()(const DvlConfig& config) const {
     return std::make_unique<Dvl>(spec.name, spec.id, spec.X_BS, config, seed, environment);
+  }
+  std::unique_ptr<Sensor> operator()(const ContactSensorConfig& config) const {
+    return std::make_unique<ContactSensor>(spec.name, spec.id, config, environment.step_ns);
   }
 };
 

@@ -42,7 +42,8 @@ SwingPoint SwingAt(const Eigen::Vector3d& from, const Eigen::Vector3d& to, doubl
   Value up = rises ? Quintic(s / kUpShare)
                    : Hermite(top, to.z(), -touch_down_m_s * span_s,
                              std::min((s - kUpShare) / (1.0 - kUpShare), 1.0));
-  if (rises) up = {from.z() + up.x * (top - from.z()), up.dx * (top - from.z()), up.ddx * (top - from.z())};
+  if (rises)
+    up = {from.z() + up.x * (top - from.z()), up.dx * (top - from.z()), up.ddx * (top - from.z())};
   point.p.z() = up.x;
   point.v.z() = up.dx / span_s;
   point.a.z() = up.ddx / (span_s * span_s);

@@ -17,7 +17,7 @@ namespace reckon::sim {
 /// A simulated robot at one instant.
 struct VehicleState {
   models::Pose X_WB;
-  models::EncoderVector joint_angle_rad, joint_rate_rad_s;  ///< as the encoders count them
+  models::EncoderVector joint_angle_rad, joint_rate_rad_s;    ///< as the encoders count them
   models::EncoderVector joint_command_n_m, joint_torque_n_m;  ///< of legs: asked for, and given
   ground_truth::FeetTruth feet;
   models::FootVector gait;  ///< 1 for each foot that the gait has down

@@ -28,15 +28,15 @@ constexpr double kMostLag = 0.04;     // m that the wanted place may run ahead
 constexpr double kMostTurnLag = 0.2;  // rad
 
 // The feet.
-constexpr double kVelocityFilter = 0.04;  // s
-constexpr double kFootholdGain = 0.06;    // s
-constexpr double kLongestStep = 0.14;     // m from under the hip
-constexpr double kAimBelow = 0.012;       // m into the ground
-constexpr double kLastAim = 0.9;          // of the swing
-constexpr double kLift = 0.07, kTouchDown = 0.15;      // m, m/s
-constexpr double kSearchSpeed = 0.7, kSearch = 0.12;   // m/s, m
-constexpr double kLowerSpeed = 0.05, kLower = 0.06;    // m/s, m: until all feet are down
-constexpr double kRamp = 0.12;                         // of the stance
+constexpr double kVelocityFilter = 0.04;              // s
+constexpr double kFootholdGain = 0.06;                // s
+constexpr double kLongestStep = 0.14;                 // m from under the hip
+constexpr double kAimBelow = 0.012;                   // m into the ground
+constexpr double kLastAim = 0.9;                      // of the swing
+constexpr double kLift = 0.07, kTouchDown = 0.15;     // m, m/s
+constexpr double kSearchSpeed = 0.7, kSearch = 0.12;  // m/s, m
+constexpr double kLowerSpeed = 0.05, kLower = 0.06;   // m/s, m: until all feet are down
+constexpr double kRamp = 0.12;                        // of the stance
 constexpr double kFirstLoad = 0.4;
 constexpr double kStanceDamping = 0.05;  // N m s
 constexpr double kSingular = 1e-5;       // m²: a straight leg can't do what is asked
@@ -123,10 +123,10 @@ void WalkingController::ReadFeet(const ControlState& x) {
 
 void WalkingController::FollowCommand(const WalkCommand& command, const ControlState& x) {
   for (int i = 0; i < 2; ++i) {
-    command_[i] = Towards(command_[i], command.velocity_m_s[i], config_.max_acceleration_m_s2 * kDt);
+    command_[i] =
+        Towards(command_[i], command.velocity_m_s[i], config_.max_acceleration_m_s2 * kDt);
   }
-  yaw_rate_ =
-      Towards(yaw_rate_, command.yaw_rate_rad_s, config_.max_yaw_acceleration_rad_s2 * kDt);
+  yaw_rate_ = Towards(yaw_rate_, command.yaw_rate_rad_s, config_.max_yaw_acceleration_rad_s2 * kDt);
   v_command_ = AboutZ(yaw_).topLeftCorner<2, 2>() * command_;
   v_filtered_ += kDt / (kVelocityFilter * time_) * (x.v_WB.head<2>() - v_filtered_);
 }
@@ -155,8 +155,8 @@ void WalkingController::LowerOntoGround(const ControlState& x) {
 
 void WalkingController::MoveReferences(const ControlState& x) {
   yaw_wanted_ += yaw_rate_ * kDt;
-  yaw_wanted_ =
-      yaw_ + std::clamp(std::remainder(yaw_wanted_ - yaw_, 2.0 * M_PI), -kMostTurnLag, kMostTurnLag);
+  yaw_wanted_ = yaw_ + std::clamp(std::remainder(yaw_wanted_ - yaw_, 2.0 * M_PI), -kMostTurnLag,
+                                  kMostTurnLag);
   const Vector2d p = x.X_WB.p.head<2>();
   if (clock_.walking()) {
     p_wanted_ += v_command_ * kDt;
@@ -174,8 +174,7 @@ void WalkingController::AdaptFriction() {
   for (int i = 0; i < body_->legs(); ++i) {
     Foot& foot = feet_[i];
     const bool stands = clock_.state(i) == LegPhase::kStance && foot.contact;
-    foot.skating =
-        stands && foot.v_WF.head<2>().norm() > kSkates * time_ ? foot.skating + 1 : 0;
+    foot.skating = stands && foot.v_WF.head<2>().norm() > kSkates * time_ ? foot.skating + 1 : 0;
     skates |= foot.skating >= kSkatingTicks;
   }
   friction_ += (skates ? -kLoseFriction : kRegainFriction) * kDt;
@@ -191,8 +190,7 @@ Wrench WalkingController::BodyWrench(const ControlState& x) const {
                 ((walks ? kLevelD : kStandD) * (v_command_ - x.v_WB.head<2>())) / time_;
   a.head<2>() = a.head<2>().cwiseMax(-kMostLevel).cwiseMin(kMostLevel).eval();
   const double z_wanted = plane_.height() + body_->stand_height_m();
-  a.z() = kUpP * (z_wanted - p.z()) / length_ +
-          kUpD * (slope.dot(v_command_) - x.v_WB.z()) / time_;
+  a.z() = kUpP * (z_wanted - p.z()) / length_ + kUpD * (slope.dot(v_command_) - x.v_WB.z()) / time_;
   a.z() = std::clamp(a.z(), -kMostDown, kMostUp);
   const Vector2d slope_yaw = AboutZ(-yaw_wanted_).topLeftCorner<2, 2>() * slope;
   const Matrix3d R_wanted =
@@ -200,9 +198,8 @@ Wrench WalkingController::BodyWrench(const ControlState& x) const {
       Eigen::AngleAxisd(-kFollowSlope * std::atan(slope_yaw.x()), Vector3d::UnitY()) *
       Eigen::AngleAxisd(kFollowSlope * std::atan(slope_yaw.y()), Vector3d::UnitX());
   const Vector3d w_wanted = R.transpose() * (yaw_rate_ * Vector3d::UnitZ());
-  const Vector3d alpha =
-      kTurnP.cwiseProduct(RotationLog(R.transpose() * R_wanted)) / length_ +
-      kTurnD.cwiseProduct(w_wanted - x.w_WB_B) / time_;
+  const Vector3d alpha = kTurnP.cwiseProduct(RotationLog(R.transpose() * R_wanted)) / length_ +
+                         kTurnD.cwiseProduct(w_wanted - x.w_WB_B) / time_;
   Wrench wrench;
   wrench << body_->mass_kg() * (a + g_ * Vector3d::UnitZ()), R * (body_->inertia_kg_m2() * alpha);
   return wrench;
@@ -252,15 +249,14 @@ WalkingController::Vector3 WalkingController::Foothold(int leg, const ControlSta
   const double left_s = (1.0 - clock_.swing(leg)) * gait.swing_s();
   const double yaw = yaw_ + yaw_rate_ * (left_s + 0.5 * gait.stance_s());
   const Vector3d under_hip = AboutZ(yaw) * body_->stand_foot(leg);
-  const Vector2d centripetal = 0.5 * body_->stand_height_m() / g_ * yaw_rate_ *
-                               Vector2d(v_filtered_.y(), -v_filtered_.x());
+  const Vector2d centripetal =
+      0.5 * body_->stand_height_m() / g_ * yaw_rate_ * Vector2d(v_filtered_.y(), -v_filtered_.x());
   Vector2d step = 0.5 * gait.stance_s() * v_filtered_ +
                   kFootholdGain * time_ * (v_filtered_ - v_command_) + centripetal;
   const double longest = kLongestStep * length_;
   step = step.cwiseMax(-longest).cwiseMin(longest).eval();
   Vector3d foothold;
-  foothold.head<2>() =
-      x.X_WB.p.head<2>() + left_s * v_filtered_ + under_hip.head<2>() + step;
+  foothold.head<2>() = x.X_WB.p.head<2>() + left_s * v_filtered_ + under_hip.head<2>() + step;
   foothold.z() = plane_.HeightAt(foothold.head<2>()) + body_->foot_radius_m() - kAimBelow * length_;
   return foothold;
 }
@@ -296,8 +292,8 @@ WalkingController::Vector3 WalkingController::SwingTorque(int leg, const Control
                     body_->dynamics(leg).GravityTorque(q, R_BW * Vector3d::UnitZ(), g_);
   if (!target.a.isZero()) {
     const Matrix3d JJt = J * J.transpose() + kSingular * Matrix3d::Identity();
-    torque += body_->dynamics(leg).MassMatrix(q) *
-              (J.transpose() * (JJt.inverse() * (R_BW * target.a)));
+    torque +=
+        body_->dynamics(leg).MassMatrix(q) * (J.transpose() * (JJt.inverse() * (R_BW * target.a)));
   }
   return torque;
 }

@@ -75,9 +75,9 @@ class WalkingController {
   SupportPlane plane_;
   ForceDistribution distribution_;
   std::array<Foot, models::kMaxFeet> feet_;
-  SupportPlane::Points stood_;  ///< bottoms of the feet where they stood last
+  SupportPlane::Points stood_;        ///< bottoms of the feet where they stood last
   ForceDistribution::Forces forces_;  ///< in W
-  Eigen::Vector2d command_ = Eigen::Vector2d::Zero();  ///< ramped, in the axes of the heading
+  Eigen::Vector2d command_ = Eigen::Vector2d::Zero();    ///< ramped, in the axes of the heading
   Eigen::Vector2d v_command_ = Eigen::Vector2d::Zero();  ///< in W
   Eigen::Vector2d v_filtered_ = Eigen::Vector2d::Zero(), p_wanted_ = Eigen::Vector2d::Zero();
   double yaw_rate_ = 0.0, yaw_wanted_ = 0.0, yaw_ = 0.0, friction_ = 0.4;

@@ -11,12 +11,12 @@
 namespace reckon::sim {
 namespace {
 
-constexpr double kOverhang = 1.0;        // m beyond the map
-constexpr double kFinestRough = 0.1;     // m between the nodes of rough ground, at most
-constexpr double kClearStart = 1.0;      // m around the origin without steps and debris
-constexpr double kLanding = 1.2;         // m between two flights
+constexpr double kOverhang = 1.0;     // m beyond the map
+constexpr double kFinestRough = 0.1;  // m between the nodes of rough ground, at most
+constexpr double kClearStart = 1.0;   // m around the origin without steps and debris
+constexpr double kLanding = 1.2;      // m between two flights
 constexpr double kMostPieces = 4000.0;
-constexpr double kThin = 0.0005;         // m: half of a drawn patch's thickness
+constexpr double kThin = 0.0005;  // m: half of a drawn patch's thickness
 
 using Colour = float[4];
 constexpr Colour kStep = {0.62F, 0.58F, 0.52F, 1.0F}, kWood = {0.62F, 0.45F, 0.26F, 1.0F},
@@ -24,7 +24,7 @@ constexpr Colour kStep = {0.62F, 0.58F, 0.52F, 1.0F}, kWood = {0.62F, 0.45F, 0.2
                  kGrip = {0.35F, 0.35F, 0.37F, 1.0F};
 
 struct Box {
-  double x, y, z;           ///< of its middle
+  double x, y, z;  ///< of its middle
   double half[3];
   double yaw_rad = 0.0;
 };
@@ -52,7 +52,8 @@ void AddStairs(const TerrainConfig& terrain, mjsBody* world) {
       const double depth = last ? kLanding : terrain.step_depth_m;
       if (last) rise = -rise;
       const double top = level * terrain.step_height_m;
-      const Box step{side * (x + depth / 2.0), 0.0, top / 2.0, {depth / 2.0, half_width, top / 2.0}};
+      const Box step{
+          side * (x + depth / 2.0), 0.0, top / 2.0, {depth / 2.0, half_width, top / 2.0}};
       if (level > 0) SetGroundContact(terrain, 1, AddBox(step, kStep, world));
       x += depth;
     }
@@ -72,8 +73,8 @@ void AddDebris(const TerrainConfig& terrain, std::uint64_t seed, mjsBody* world)
     if (std::hypot(x, y) < kClearStart) continue;
     Box box{x, y, 0.0, {0.25 + 0.2 * size, 0.02 + 0.01 * size, high}, yaw};  // bar
     const auto kind = static_cast<int>(3.0 * random.Uniform(5, i));
-    if (kind == 1) box = {x, y, 0.0, {0.12, 0.06, high}, yaw};                     // brick
-    if (kind == 2) box = {x, y, 0.0, {0.3 + 0.2 * size, 0.1, high / 2.0}, yaw};    // board
+    if (kind == 1) box = {x, y, 0.0, {0.12, 0.06, high}, yaw};                   // brick
+    if (kind == 2) box = {x, y, 0.0, {0.3 + 0.2 * size, 0.1, high / 2.0}, yaw};  // board
     SetGroundContact(terrain, 1, AddBox(box, kind == 1 ? kBrick : kWood, world));
   }
 }
@@ -84,7 +85,8 @@ HeightSamples Gravel(const TerrainConfig& terrain, std::uint64_t seed) {
   const auto height = [random, spacing, high = terrain.stone_height_m](double x, double y) {
     constexpr double kMiddle = 100000.0;  // nodes, so that no index is negative
     const auto row = static_cast<std::uint32_t>(std::lround(y / spacing + kMiddle));
-    return high * random.Uniform(row, static_cast<std::uint64_t>(std::lround(x / spacing + kMiddle)));
+    return high *
+           random.Uniform(row, static_cast<std::uint64_t>(std::lround(x / spacing + kMiddle)));
   };
   return {terrain.half_size_m + kOverhang, spacing, height};
 }
@@ -101,6 +103,18 @@ mjsGeom* AddBase(const Terrain& terrain, std::uint64_t seed, mjSpec* spec, mjsBo
     return AddHeightfield(spec, world, "rough", samples, 0.0, "ground");
   }
   return AddGroundPlane(world, terrain.At(0.0, 0.0), 0.0, "ground");
+}
+
+/// To see by: the sun, half way up.
+void AddSun(mjsBody* world) {
+  mjsLight* sun = mjs_addLight(world, nullptr);
+  sun->type = mjLIGHT_DIRECTIONAL;
+  sun->castshadow = 0;  // one map of shadows over a whole field is too coarse for a robot
+  const double dir[] = {0.5, 0.3, -0.8};
+  std::copy(dir, dir + 3, sun->dir);
+  for (float& part : sun->diffuse) part = 0.8F;
+  for (float& part : sun->ambient) part = 0.3F;
+  for (float& part : sun->specular) part = 0.1F;
 }
 
 }  // namespace
@@ -124,6 +138,7 @@ void AddWalkingGround(const Terrain& terrain, const std::vector<PatchConfig>& pa
                       std::uint64_t seed, mjSpec* spec, mjsBody* world) {
   AddSky(spec, "sky", {0.45, 0.62, 0.80}, {0.80, 0.86, 0.90});
   AddChecker(spec, "ground", {0.52, 0.55, 0.50}, {0.46, 0.49, 0.45}, 0.5);
+  AddSun(world);
   mjsGeom* base = AddBase(terrain, seed, spec, world);
   base->group = kSceneryGroup;
   SetGroundContact(terrain.config(), 1, base);

@@ -93,7 +93,7 @@ class World::Impl {
     truth.v_WB = motion_.Velocity(Eigen::Vector3d::Zero());
     truth.w_WB_B = RotationLog(previous_.X_WB.R.transpose() * next_.X_WB.R) /
                    (2.0 * models::Seconds(motion_.step_ns));
-    truth.wheel_rate_rad_s = now_.joint_rate_rad_s;
+    if (now_.feet.count == 0) truth.wheel_rate_rad_s = now_.joint_rate_rad_s;
     truth.wheel_slip_m_s = now_.wheel_slip_m_s;
     truth.wheel_load_n = now_.wheel_load_n;
     truth.feet = now_.feet;

@@ -37,19 +37,19 @@ struct TerrainConfig {
   double angle_deg = 10.0;    ///< slope: ground rises along `uphill_deg`
   double uphill_deg = 0.0;    ///< slope: direction of ascent, from +x towards +y
   double rms_m = 0.03;        ///< rough: standard deviation of the height
-  double shortest_wave_m = 0.6;  ///< rough: cosines between these two wavelengths,
-  double longest_wave_m = 8.0;   ///<        amplitude ∝ λ^0.8, scaled to the RMS
-  double kerb_height_m = 0.04;   ///< kerbs: boxes across the path,
-  double kerb_width_m = 0.30;    ///<        this wide (along x),
-  double kerb_spacing_m = 3.0;   ///<        one every so many metres along x
-  double step_height_m = 0.08;   ///< stairs: flights along x, up and down in turn,
-  double step_depth_m = 0.30;    ///<        of treads this deep,
-  int steps = 5;                 ///<        so many to a flight
-  double piece_height_m = 0.05;  ///< debris: the highest of bars, bricks and boards,
-  double pieces_per_m2 = 1.5;    ///<        so many lie about
-  double stone_m = 0.05;         ///< gravel: across a stone, and
-  double stone_height_m = 0.03;  ///<         how much higher one can lie than another
-  GroundContactConfig contact;   ///< under feet
+  double shortest_wave_m = 0.6;      ///< rough: cosines between these two wavelengths,
+  double longest_wave_m = 8.0;       ///<        amplitude ∝ λ^0.8, scaled to the RMS
+  double kerb_height_m = 0.04;       ///< kerbs: boxes across the path,
+  double kerb_width_m = 0.30;        ///<        this wide (along x),
+  double kerb_spacing_m = 3.0;       ///<        one every so many metres along x
+  double step_height_m = 0.08;       ///< stairs: flights along x, up and down in turn,
+  double step_depth_m = 0.30;        ///<        of treads this deep,
+  int steps = 5;                     ///<        so many to a flight
+  double piece_height_m = 0.05;      ///< debris: the highest of bars, bricks and boards,
+  double pieces_per_m2 = 1.5;        ///<        so many lie about
+  double stone_m = 0.05;             ///< gravel: across a stone, and
+  double stone_height_m = 0.03;      ///<         how much higher one can lie than another
+  GroundContactConfig contact = {};  ///< under feet
 
   static constexpr Range kFriction{0, 3}, kRollingResistance{0, 1}, kHalfSize{2, 1000};
   /// Rough ground is a table: one of 150 m has 9e6 nodes.

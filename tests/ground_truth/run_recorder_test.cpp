@@ -69,6 +69,35 @@ TEST(RunRecorder, TruthComesBackBitByBit) {
   EXPECT_FALSE(cursor.Next());
 }
 
+TEST(RunRecorder, FeetComeBackBitByBit) {
+  const TemporaryFolder folder;
+  RecordingPlan plan = SmallPlan();
+  plan.feet = {"left_foot", "right_foot"};
+  Truth truth = SomeTruth(0);
+  truth.feet.count = 2;
+  truth.feet.foot[0] = {true, 31.5, 4.25, 1e-3, 0.034, {0.0, 0.6, 0.8}};
+  truth.feet.foot[1].centre_m_s = 1.5;
+  {
+    RunRecorder recorder(folder / "run.h5", plan);
+    recorder.Add(truth);
+    EXPECT_THROW(recorder.Add(SomeTruth(1)), std::invalid_argument);  // without feet
+    recorder.Close();
+  }
+  const RecordingReader reader(folder / "run.h5");
+  const auto read = reader.ReadTruth().Next();
+  ASSERT_TRUE(read);
+  ASSERT_EQ(read->feet.count, 2);
+  for (int i = 0; i < 2; ++i) {
+    const FootTruth &foot = read->feet.foot[i], &expected = truth.feet.foot[i];
+    EXPECT_EQ(foot.contact, expected.contact);
+    EXPECT_EQ(foot.normal_n, expected.normal_n);
+    EXPECT_EQ(foot.tangential_n, expected.tangential_n);
+    EXPECT_EQ(foot.slip_m_s, expected.slip_m_s);
+    EXPECT_EQ(foot.centre_m_s, expected.centre_m_s);
+    EXPECT_TRUE(SameBits(foot.normal, expected.normal));
+  }
+}
+
 TEST(RunRecorder, MeasurementsComeBackBitByBitInOrderOfArrival) {
   const TemporaryFolder folder;
   // Late encoders arrive after younger IMU samples, and two sensors arrive at one instant.

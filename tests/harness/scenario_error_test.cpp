@@ -258,6 +258,30 @@ INSTANTIATE_TEST_SUITE_P(
              "'scale_step', 'saturation', 'outlier_burst', 'nan_burst', not to 'dropout'"}),
     [](const auto& test) { return test.param.name; });
 
+INSTANTIATE_TEST_SUITE_P(
+    Legs, WrongText,
+    testing::Values(
+        Case{"GaitWithoutStance", "robot: mini_cheetah\ncontrol: {gait: {duty: 0}}\n",
+             "sc.yaml:2:24: error: '/control/gait/duty': expected a number from 0.1 to 0.95, found "
+             "'0'"},
+        Case{
+            "MissingFoot",
+            "robot: mini_cheetah\ndrive: {feet: [FR_foot, FL_foot, RR_foot, RL_fot]}\n",
+            "sc.yaml:2:15: error: '/drive/feet': there is no link in the URDF called 'RL_fot'; did "
+            "you mean 'RL_foot'?"},
+        Case{"GaitOfThreeFeet", "robot: mini_cheetah\ncontrol: {gait: {offsets: [0, 0.5, 0]}}\n",
+             "sc.yaml:2:17: error: '/control/gait': control/gait: offsets has 3 entries, expected "
+             "one a foot, 4"},
+        Case{"WheelsOfAWalker", "robot: mini_cheetah\nactual: {track_scale: 1.1}\n",
+             "sc.yaml:2:23: error: '/actual/track_scale': expected nothing: this robot has no "
+             "wheels, found '1.1'"},
+        Case{"ControlOfWheels", "robot: husky\ncontrol: {in_air: true}\n",
+             "sc.yaml:2:10: error: '/control': this robot has no legs to walk on"},
+        Case{"StairsForWheels", "robot: husky\nworld:\n  terrain: {kind: stairs}\n",
+             "sc.yaml:3:19: error: '/world/terrain/kind': expected ground for a robot without "
+             "legs, found 'stairs'"}),
+    [](const auto& info) { return info.param.name; });
+
 TEST(ScenarioError, ChannelsThatTheSensorHasAreRead) {
   const auto channels = [](const std::string& sensor, const std::string& word) {
     const std::string fault = "{sensor: " + sensor + ", kind: bias_step, at_s: 1, offset: 1" + word;

@@ -101,6 +101,25 @@ TEST(UrdfRobot, RefusesWhatNoBodyCanBe) {
   EXPECT_TRUE(Says(Refusal(link("1", "1", box)), "link 'base' has a geometry whose size"));
 }
 
+TEST(UrdfRobot, RefusesLimitsTheWrongWayRound) {
+  const std::string links = std::string(kBase) + "<link name='arm'/>";
+  const auto with = [&](const std::string& limit) {
+    return Refusal(links +
+                   Joint("elbow", "revolute", "base", "arm", "<axis xyz='0 1 0'/>" + limit));
+  };
+  EXPECT_EQ(with("<limit lower='-1' upper='1' effort='1' velocity='1'/>"), "");
+  EXPECT_TRUE(Says(with("<limit lower='1' upper='-1' effort='1' velocity='1'/>"),
+                   "joint 'elbow' has a lower limit, 1.000000, that is not below its upper one"));
+}
+
+TEST(UrdfRobot, RefusesAClosedChain) {
+  const std::string message = Refusal(
+      std::string(kBase) + "<link name='a'/><link name='b'/><link name='foot'/>" +
+      Joint("to_a", "continuous", "base", "a", "") + Joint("to_b", "continuous", "base", "b", "") +
+      Joint("left", "continuous", "a", "foot", "") + Joint("right", "continuous", "b", "foot", ""));
+  EXPECT_TRUE(Says(message, "link 'foot' is the child of more than one joint"));
+}
+
 TEST(UrdfRobot, NamesWhatIsMissing) {
   EXPECT_THROW(UrdfRobot::FromFile("/nonexistent/robot.urdf"), std::invalid_argument);
   const auto robot = UrdfRobot::FromText(Robot(kBase), "test.urdf");

@@ -110,6 +110,19 @@ TEST(Driver, HoldsTheRowsOfAProfile) {
   EXPECT_EQ(driver.Update(99.0, {0, 0}, 0).speed_m_s, -0.3);
 }
 
+TEST(Driver, PausesAfterEachTimeOfGoing) {
+  MotionConfig motion = Motion(PathKind::kVelocityProfile);
+  motion.start_s = 1.0;
+  motion.go_s = 4.0;
+  motion.stop_s = 2.0;
+  motion.profile = {{0.0, 0.5, 0.0}};
+  Driver driver(motion);
+  EXPECT_EQ(driver.Update(4.9, {0, 0}, 0).speed_m_s, 0.5);
+  EXPECT_EQ(driver.Update(5.1, {0, 0}, 0).speed_m_s, 0.0);
+  EXPECT_EQ(driver.Update(6.9, {0, 0}, 0).speed_m_s, 0.0);
+  EXPECT_EQ(driver.Update(7.1, {0, 0}, 0).speed_m_s, 0.5);
+}
+
 TEST(Driver, RefusesWhatCannotBeDriven) {
   const auto refuses = [](PathKind path, const std::function<void(MotionConfig&)>& edit,
                           const std::string& key) {
