@@ -3,7 +3,8 @@
 namespace reckon::estimator {
 
 FootReading ReadFoot(const models::LegKinematics& leg, const models::EncoderVector& angles,
-                     const Eigen::Vector3d& p_BI, const Noise& noise) {
+                     const Eigen::Vector3d& p_BI, const Noise& noise,
+                     const models::EncoderVector& rates) {
   const models::FootPosition foot = leg.Evaluate(angles);
   FootReading reading;
   reading.h = foot.p_BF - p_BI;
@@ -11,6 +12,7 @@ FootReading ReadFoot(const models::LegKinematics& leg, const models::EncoderVect
     const Eigen::Vector3d column = noise.joint_angle_rad * foot.J.col(k);
     reading.N += column * column.transpose();
   }
+  if (rates.size() > 0) reading.w_rad_s = foot.A * leg.Pick(rates);
   reading.N.diagonal().array() += noise.foot_position_m * noise.foot_position_m;
   return reading;
 }

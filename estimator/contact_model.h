@@ -15,11 +15,14 @@ namespace reckon::estimator {
 struct FootReading {
   Eigen::Vector3d h = Eigen::Vector3d::Zero();
   Eigen::Matrix3d N = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d w_rad_s = Eigen::Vector3d::Zero();  ///< of the foot's link against the body
 };
 
-/// Reads a foot; `p_BI` is the IMU's origin in the body. Does not allocate.
+/// Reads a foot; `p_BI` is the IMU's origin in the body. Without rates nothing is said of its turn.
+/// Does not allocate.
 FootReading ReadFoot(const models::LegKinematics& leg, const models::EncoderVector& angles,
-                     const Eigen::Vector3d& p_BI, const Noise& noise);
+                     const Eigen::Vector3d& p_BI, const Noise& noise,
+                     const models::EncoderVector& rates = {});
 
 /// A foot that stands [Hartley20, forward kinematics]: h = Rᵀ (d − p) + n, in right-invariant
 /// coordinates

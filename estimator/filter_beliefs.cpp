@@ -72,6 +72,7 @@ FilterBeliefs::FilterBeliefs(const Setup& told)
   if (suite.legs) {
     leg_encoders = suite.Find(suite.legs->encoders);
     contacts = suite.Find(suite.legs->contacts);
+    if (told.feet == FootKind::kRolling) rolling_radius_m = suite.legs->foot_radius_m;
   }
   if (!told.gyro_filter.source.empty()) gyro_source = suite.Find(told.gyro_filter.source);
   if (gyro_source == imu) {

@@ -46,6 +46,7 @@ struct FilterBeliefs {
 
   std::optional<models::SensorId> wheels, leg_encoders, contacts, gyro_source;
   bool gyro_source_is_imu = false;
+  double rolling_radius_m = 0.0;  ///< of feet that are taken for round; 0: they do not roll
 };
 
 }  // namespace reckon::estimator

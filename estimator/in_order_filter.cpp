@@ -27,8 +27,6 @@ using models::TimeNs;
 
 /// No step is longer: the covariance of a bridged gap sees its nonlinearity.
 constexpr TimeNs kLongestStep = 50'000'000;
-/// A foot that is more probably in contact than not stands.
-constexpr double kStands = 0.5;
 
 double LargestSigma(const LaneMatrix& P) {
   return std::sqrt(std::max({P(0, 0), P(1, 1), P(2, 2)}));
@@ -61,7 +59,7 @@ void InOrderFilter<Core>::Start(TimeNs t_ns, const NavigationState& x, const Err
   widening_ = {};
   rest_.Restart();
   mistrust_.Start(t_ns);
-  standing_.fill(false);
+  feet_.Start();
 }
 
 /// With a second IMU the filter's bias is the mean of two: of the other nothing is known but that
@@ -103,7 +101,10 @@ void InOrderFilter<Core>::AdvanceTo(TimeNs t_ns) {
     const Increment u(Rate() - core_.x().gyro_bias, held_.accel() - core_.x().accel_bias, dt);
     ProcessNoise noise = NoiseAt(t_ns_);
     widening_.Spend(noise, core_.P(), dt);
-    core_.Propagate(u, beliefs_->gravity, noise);
+    RollingFeet rolling;
+    const bool rolls = beliefs_->rolling_radius_m > 0.0 && !core_.P().slots().feet().empty();
+    if (rolls) rolling = feet_.Rolling(u.w, core_.x(), beliefs_->rolling_radius_m);
+    core_.Propagate(u, beliefs_->gravity, noise, rolls ? &rolling : nullptr);
     for (const Slot slot : core_.P().active()) {
       if (IsFoot(slot)) core_.P()(slot, slot) += LaneMatrix::Diagonal(slip * slip * dt);
     }
@@ -198,15 +199,11 @@ template <class Core>
 void InOrderFilter<Core>::UseLegs(const Measurement& m, const models::EncoderSample& y,
                                   Report* report) {
   const auto& legs = beliefs_->setup.suite.legs->legs;
-  FootReadings readings;
-  for (std::size_t i = 0; i < legs.size(); ++i) {
-    if (!standing_[i]) continue;
-    readings[i] = ReadFoot(legs[i], y.angle_rad, beliefs_->p_BI, beliefs_->setup.noise);
-  }
+  const StandingFeet::Readings readings = feet_.Read(y, *beliefs_);
   CorrectFeet(m, readings, report);
   for (std::size_t i = 0; i < legs.size(); ++i) {
     const Slot foot = FootSlot(static_cast<int>(i));
-    if (!standing_[i] || core_.P().IsActive(foot)) continue;
+    if (!feet_.Stands(i) || core_.P().IsActive(foot)) continue;
     AddFoot(core_, readings[i], foot);
     if (!beliefs_->setup.floor.use) continue;
     UseFloor(
@@ -216,14 +213,14 @@ void InOrderFilter<Core>::UseLegs(const Measurement& m, const models::EncoderSam
 
 /// Linearised once and taken in one after the other: equal to all feet in one correction.
 template <class Core>
-void InOrderFilter<Core>::CorrectFeet(const Measurement& m, const FootReadings& readings,
+void InOrderFilter<Core>::CorrectFeet(const Measurement& m, const StandingFeet::Readings& readings,
                                       Report* report) {
   if (core_.P().slots().feet().empty()) return;
   SlotVector increment;
   increment.fill(Lane::Zero());
   for (std::size_t i = 0; i < readings.size(); ++i) {
     const Slot foot = FootSlot(static_cast<int>(i));
-    if (!standing_[i] || !core_.P().IsActive(foot)) continue;
+    if (!feet_.Stands(i) || !core_.P().IsActive(foot)) continue;
     const auto linearised = LinearisedContact(readings[i], foot, core_.x());
     auto own = Core::Convert(linearised, core_.x());
     own.MoveBy(increment);
@@ -277,10 +274,11 @@ void InOrderFilter<Core>::Use(const Measurement& m, const models::PoseSample& y,
 template <class Core>
 void InOrderFilter<Core>::Use(const Measurement& /*m*/, const models::ContactSample& y,
                               Report* /*report*/) {
+  feet_.Hear(y);
   for (Eigen::Index i = 0; i < y.probability.size(); ++i) {
-    standing_[i] = y.probability[i] > kStands;
     const Slot foot = FootSlot(static_cast<int>(i));
-    if (!standing_[i] && core_.P().IsActive(foot)) core_.P().RemoveFoot(foot);
+    if (!feet_.Stands(static_cast<std::size_t>(i)) && core_.P().IsActive(foot))
+      core_.P().RemoveFoot(foot);
   }
 }
 

@@ -12,6 +12,7 @@
 #include "reckon/estimator/mistrust.h"
 #include "reckon/estimator/report.h"
 #include "reckon/estimator/rest_average.h"
+#include "reckon/estimator/standing_feet.h"
 #include "reckon/estimator/velocity_model.h"
 
 namespace reckon::estimator {
@@ -72,8 +73,8 @@ class InOrderFilter {
   void Use(const models::Measurement& m, const models::ContactSample& y, Report* report);
   void Use(const models::Measurement& /*m*/, const models::ImuSample& /*y*/, Report* /*report*/) {}
   void UseLegs(const models::Measurement& m, const models::EncoderSample& y, Report* report);
-  using FootReadings = std::array<FootReading, kMaxFeet>;
-  void CorrectFeet(const models::Measurement& m, const FootReadings& readings, Report* report);
+  void CorrectFeet(const models::Measurement& m, const StandingFeet::Readings& readings,
+                   Report* report);
   void RefineByImu(const models::Measurement& m, const models::ImuSample& y, Report* report);
   void StartMeanBias();
   template <class Point>
@@ -109,7 +110,7 @@ class InOrderFilter {
   Widening widening_;
   GyroFilterStage stage_;  ///< idle without a second source of the rate
   RestAverage rest_;
-  std::array<bool, kMaxFeet> standing_{};
+  StandingFeet feet_;
   Mistrust mistrust_;
 };
 

@@ -6,20 +6,31 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 [[gnu::flatten]] void LeftInvariantEkf::Propagate(const Increment& u, const Vector3d& g,
-                                                  const ProcessNoise& noise) {
+                                                  const ProcessNoise& noise,
+                                                  const RollingFeet* rolling) {
   const double dt = u.dt;
   const double dt2 = dt * dt;
   const Lane a = ToLane(u.a);
+  const LaneMatrix R = ToLanes(x_.R);
   x_ = Propagated(x_, u, g);
 
   // In the axes of before the step: position first, it reads the old velocity. Then all turn.
   P_.AddRow(kPositionSlot, dt, kVelocitySlot);
   P_.AddRow(kPositionSlot, CrossProduct{-dt2 * (u.G2 * a)}, kThetaSlot);
   P_.AddRow(kVelocitySlot, CrossProduct{-dt * (u.G1 * a)}, kThetaSlot);
+  BiasColumns J;
   const LaneMatrix turn = Transposed(u.G0);
+  if (rolling != nullptr) {
+    for (const Slot foot : P_.slots().feet()) {
+      const Lane velocity = rolling->Velocity(foot), moved = dt * (u.G1 * velocity);
+      x_.At(foot) = ToEigen(ToLane(x_.At(foot)) + R * moved);
+      P_.AddRow(foot, CrossProduct{-moved}, kThetaSlot);
+      J.gyro[foot] = dt * (turn * (u.G1 * rolling->LeverCross(foot))) -
+                     dt2 * (turn * u.series.GammaDerivative(1, velocity));
+    }
+  }
   P_.slots().loops().ForEachMoved([&](Slot slot) { P_.MapRow(slot, turn); });
 
-  BiasColumns J;
   J.gyro[kThetaSlot] = -dt * (turn * u.G1);
   J.gyro[kVelocitySlot] = -dt2 * (turn * u.series.GammaDerivative(1, a));
   J.gyro[kPositionSlot] = -dt2 * dt * (turn * u.series.GammaDerivative(2, a));

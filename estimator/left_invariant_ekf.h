@@ -20,7 +20,8 @@ class LeftInvariantEkf : public ErrorState<ErrorForm::kLeftInvariant> {
   ///     p   −Γ0ᵀ[Γ2 a]×Δt²  Γ0ᵀΔt  Γ0ᵀ     −Γ0ᵀ ∂(Γ2 a)/∂φ Δt³   −Γ0ᵀ Γ2 Δt²
   ///
   /// Γ0ᵀ for a foot, and the noise of a sample that is held.
-  void Propagate(const Increment& u, const Eigen::Vector3d& g, const ProcessNoise& noise);
+  void Propagate(const Increment& u, const Eigen::Vector3d& g, const ProcessNoise& noise,
+                 const RollingFeet* rolling = nullptr);
 
   /// The blocks of a measurement for this error, H_l = H_r Ad_X̂.
   template <int kRows>

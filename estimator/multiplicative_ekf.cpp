@@ -6,7 +6,8 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 [[gnu::flatten]] void MultiplicativeEkf::Propagate(const Increment& u, const Vector3d& g,
-                                                   const ProcessNoise& noise) {
+                                                   const ProcessNoise& noise,
+                                                   const RollingFeet* rolling) {
   const double dt = u.dt;
   const double dt2 = dt * dt;
   const Lane a = ToLane(u.a);
@@ -17,9 +18,18 @@ using Eigen::Vector3d;
   P_.AddRow(kPositionSlot, dt, kVelocitySlot);
   P_.AddRow(kPositionSlot, -dt2 * (R * DiagonalAndCross(0.0, u.G2 * a)), kThetaSlot);
   P_.AddRow(kVelocitySlot, -dt * (R * DiagonalAndCross(0.0, u.G1 * a)), kThetaSlot);
+  BiasColumns J;
+  if (rolling != nullptr) {
+    for (const Slot foot : P_.slots().feet()) {
+      const Lane velocity = rolling->Velocity(foot), moved = dt * (u.G1 * velocity);
+      x_.At(foot) = ToEigen(ToLane(x_.At(foot)) + R * moved);
+      P_.AddRow(foot, -1.0 * (R * DiagonalAndCross(0.0, moved)), kThetaSlot);
+      J.gyro[foot] = dt * (R * (u.G1 * rolling->LeverCross(foot))) -
+                     dt2 * (R * u.series.GammaDerivative(1, velocity));
+    }
+  }
   P_.MapRow(kThetaSlot, Transposed(u.G0));
 
-  BiasColumns J;
   J.gyro[kThetaSlot] = -dt * (Transposed(u.G0) * u.G1);
   J.gyro[kVelocitySlot] = -dt2 * (R * u.series.GammaDerivative(1, a));
   J.gyro[kPositionSlot] = -dt2 * dt * (R * u.series.GammaDerivative(2, a));

@@ -20,7 +20,8 @@ class MultiplicativeEkf : public ErrorState<ErrorForm::kMultiplicative> {
   ///     p   −R [Γ2 a]× Δt²  IΔt   I   −R ∂(Γ2 a)/∂φ Δt³    −R Γ2 Δt²
   ///
   /// and the noise of a sample that is held, which acts as a bias that lives one step.
-  void Propagate(const Increment& u, const Eigen::Vector3d& g, const ProcessNoise& noise);
+  void Propagate(const Increment& u, const Eigen::Vector3d& g, const ProcessNoise& noise,
+                 const RollingFeet* rolling = nullptr);
 
   /// The blocks of a measurement for this error: H_θ = (H_θr + H_v [v̂]× + H_p [p̂]×) R̂.
   template <int kRows>

@@ -28,6 +28,22 @@ struct NavigationState {
   }
 };
 
+/// How the middles of round feet move while their contact points stand: with the rate ω of a foot
+/// and the lever l from the contact point to its middle, u = ω × l. Both in I's axes, held over a
+/// step; zero for feet that do not roll.
+struct RollingFeet {
+  std::array<Eigen::Vector3d, kMaxFeet> u, lever;
+
+  RollingFeet() {
+    u.fill(Eigen::Vector3d::Zero());
+    lever.fill(Eigen::Vector3d::Zero());
+  }
+  Lane Velocity(Slot foot) const { return ToLane(u[foot - kFirstFootSlot]); }
+  LaneMatrix LeverCross(Slot foot) const {
+    return DiagonalAndCross(0.0, ToLane(lever[foot - kFirstFootSlot]));
+  }
+};
+
 /// An IMU sample in the axes of I, less the biases, held over `dt`: what moves a state, with the
 /// series that every line of a propagation needs.
 struct Increment {

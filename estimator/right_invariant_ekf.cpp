@@ -5,7 +5,8 @@ namespace reckon::estimator {
 using Eigen::Vector3d;
 
 [[gnu::flatten]] void RightInvariantEkf::Propagate(const Increment& u, const Vector3d& g,
-                                                   const ProcessNoise& noise) {
+                                                   const ProcessNoise& noise,
+                                                   const RollingFeet* rolling) {
   const double dt = u.dt;
   const LaneMatrix R_dt = dt * ToLanes(x_.R);
   x_ = Propagated(x_, u, g);
@@ -27,7 +28,16 @@ using Eigen::Vector3d;
       Cross(ToLane(x_.p), theta_g) - dt * dt * (R_dt * u.series.GammaDerivative(2, a));
   J.accel_velocity = theta_g;
   J.accel_position = -dt * (R_dt * u.G2);
-  for (const Slot foot : P_.slots().feet()) J.gyro[foot] = Cross(ToLane(x_.At(foot)), theta_g);
+  for (const Slot foot : P_.slots().feet()) {
+    LaneMatrix rolled = DiagonalAndCross(0.0, Lane::Zero());
+    if (rolling != nullptr) {
+      const Lane velocity = rolling->Velocity(foot);
+      x_.At(foot) = ToEigen(ToLane(x_.At(foot)) + R_dt * (u.G1 * velocity));
+      rolled = R_dt * (u.G1 * rolling->LeverCross(foot)) -
+               dt * (R_dt * u.series.GammaDerivative(1, velocity));
+    }
+    J.gyro[foot] = Cross(ToLane(x_.At(foot)), theta_g) + rolled;
+  }
   P_.AddBiases(J, noise, dt);
 }
 

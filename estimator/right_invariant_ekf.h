@@ -20,10 +20,12 @@ class RightInvariantEkf : public ErrorState<ErrorForm::kRightInvariant> {
   ///     v   [g]×Δt      I           v_g    θ_g
   ///     p  ½[g]×Δt²    IΔt    I     p_g    p_a
   ///
-  /// and d_g = [d]× θ_g for a foot, θ_g = −R Γ1 Δt, v_g = [v⁺]× θ_g − R ∂(Γ1 a)/∂φ Δt², p_g = [p⁺]×
-  /// θ_g − R ∂(Γ2 a)/∂φ Δt³, p_a = −R Γ2 Δt², and the exact noise of a sample that is held: it acts
-  /// as a bias that lives one step, J (Q/Δt) Jᵀ, beside the walk.
-  void Propagate(const Increment& u, const Eigen::Vector3d& g, const ProcessNoise& noise);
+  /// and d_g = [d]× θ_g for a foot (of a rolling one, d⁺ = d + R Γ1 u Δt,
+  /// d_g = [d⁺]× θ_g + R Γ1 [l]× Δt − R ∂(Γ1 u)/∂φ Δt²), θ_g = −R Γ1 Δt, v_g = [v⁺]× θ_g − R ∂(Γ1
+  /// a)/∂φ Δt², p_g = [p⁺]× θ_g − R ∂(Γ2 a)/∂φ Δt³, p_a = −R Γ2 Δt², and the exact noise of a
+  /// sample that is held: it acts as a bias that lives one step, J (Q/Δt) Jᵀ, beside the walk.
+  void Propagate(const Increment& u, const Eigen::Vector3d& g, const ProcessNoise& noise,
+                 const RollingFeet* rolling = nullptr);
 
   /// The blocks of a measurement in this form's coordinates: as they are.
   template <int kRows>

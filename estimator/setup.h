@@ -88,6 +88,12 @@ struct FlatFloor {
   double height_m = 0.0;  ///< z in W of a standing foot, or of the body's origin
 };
 
+/// What a filter takes a standing foot for.
+enum class FootKind : std::uint8_t {
+  kRolling,  ///< a sphere that rolls on level ground
+  kStatic,   ///< a point that stands [Hartley20]
+};
+
 /// The stage that refines the angular rate before it moves the filter.
 struct GyroFilter {
   std::string source;  ///< the sensor beside the IMU: another IMU, or the wheels; empty: no stage
@@ -102,6 +108,7 @@ struct Setup {
   double history_s = 0.5;  ///< how late a measurement can be and still be used at its own time
   Standstill standstill;
   FlatFloor floor;
+  FootKind feet = FootKind::kRolling;
   GyroFilter gyro_filter;
   Noise noise;
   Gate gate;

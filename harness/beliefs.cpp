@@ -53,6 +53,7 @@ estimator::Setup MakeSetup(const EstimatorConfig& config, const InitialConfig& i
   setup.history_s = config.history_s;
   setup.standstill = config.standstill;
   setup.floor = config.floor;
+  setup.feet = config.feet;
   setup.gyro_filter = config.gyro_filter;
   setup.prior_sigma = initial.sigma;
   setup.gravity_m_s2 = gravity_m_s2;

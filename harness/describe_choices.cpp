@@ -156,6 +156,15 @@ std::span<const Choice<estimator::ErrorForm>> Choices() {
 }
 
 template <>
+std::span<const Choice<estimator::FootKind>> Choices() {
+  using Kind = estimator::FootKind;
+  static const std::vector<Choice<Kind>> kChoices{
+      {Kind::kRolling, "rolling", "a sphere that rolls on level ground"},
+      {Kind::kStatic, "static", "a point that stands"}};
+  return kChoices;
+}
+
+template <>
 std::span<const Choice<ground_truth::Alignment>> Choices() {
   using Align = ground_truth::Alignment;
   static const std::vector<Choice<Align>> kChoices{

@@ -49,6 +49,8 @@ std::span<const Choice<estimator::InitialisationKind>> Choices();
 template <>
 std::span<const Choice<estimator::ErrorForm>> Choices();
 template <>
+std::span<const Choice<estimator::FootKind>> Choices();
+template <>
 std::span<const Choice<ground_truth::Alignment>> Choices();
 template <>
 std::span<const Choice<NoiseSource>> Choices();

@@ -128,6 +128,7 @@ void Describe(Archive& a, EstimatorConfig& e) {
             "How late a measurement can be and still be used at its own time", Between(0, 10));
     a.Field("standstill", e.standstill, "What is made of a robot that stands still");
     a.Field("floor", e.floor, "What is made of flat ground");
+    a.Field("feet", e.feet, "What a standing foot is taken for");
     a.Field("gyro_filter", e.gyro_filter, "The stage that refines the angular rate");
     a.Field("estimate_gyro_bias", e.estimate_gyro_bias, "false: keeps the prior's");
     a.Field("estimate_accel_bias", e.estimate_accel_bias, "false: keeps the prior's");

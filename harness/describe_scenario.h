@@ -28,6 +28,7 @@ template <class Archive>
 void Describe(Archive& a, NominalLegs& l) {
   a.Field("encoders", l.encoders, "The sensor that reports the joints; empty: no legs");
   a.Field("contacts", l.contacts, "The sensor that says which feet stand");
+  a.Field("foot_radius_m", l.foot_radius_m, "Of round feet; 0: points", Between(0, 0.5));
 }
 
 template <class Archive>

@@ -73,7 +73,10 @@ models::WheelDrive WheelsOf(const Scenario& scenario) {
 
 models::LegSet LegsOf(const Scenario& scenario, const models::UrdfRobot& urdf,
                       const std::vector<std::string>& joints) {
-  models::LegSet legs{scenario.nominal.legs.encoders, scenario.nominal.legs.contacts, {}};
+  models::LegSet legs{scenario.nominal.legs.encoders,
+                      scenario.nominal.legs.contacts,
+                      {},
+                      scenario.nominal.legs.foot_radius_m};
   for (const std::string& foot : std::get<sim::LeggedConfig>(scenario.drive).feet) {
     legs.legs.emplace_back(urdf, foot, joints);
   }

@@ -39,6 +39,7 @@ struct EstimatorConfig {
   double history_s = 0.5;  ///< how late a measurement can be and still be used at its own time
   estimator::Standstill standstill;
   estimator::FlatFloor floor;
+  estimator::FootKind feet = estimator::FootKind::kRolling;
   estimator::GyroFilter gyro_filter;
   bool estimate_gyro_bias = true;
   bool estimate_accel_bias = true;
@@ -99,6 +100,7 @@ struct NominalWheels {
 struct NominalLegs {
   std::string encoders;  ///< the sensor that reports the joints; empty: no legs
   std::string contacts;  ///< the sensor that says which feet stand
+  double foot_radius_m = 0.0;
 };
 
 /// What the estimators believe of the robot, beside its URDF.

@@ -40,6 +40,7 @@ struct LegSet {
   std::string encoders;             ///< the sensor that reports the joints
   std::string contacts;             ///< the sensor that says which feet stand
   std::vector<LegKinematics> legs;  ///< at most kMaxFeet
+  double foot_radius_m = 0.0;       ///< of the sphere around a foot's origin
 };
 
 /// The nominal robot's sensors: a measurement's `sensor` is an index into `sensors`.

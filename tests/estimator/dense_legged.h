@@ -14,6 +14,25 @@ struct LeggedState {
   std::vector<Vec3> feet;
 };
 
+/// How a foot's middle is said to move over a step, in the axes of I: u = ω × lever.
+struct Roll {
+  Vec3 u, lever;
+};
+
+/// The state after an IMU sample held over dt. Feet roll as told at the rate of `w_told`; where the
+/// true rate is another, they roll with that.
+inline LeggedState Step(const LeggedState& x, const Vec3& gyro, const Vec3& accel, Real dt,
+                        Real gravity, const std::vector<Roll>& rolls, const Vec3& w_told) {
+  LeggedState next = x;
+  next.body = Step(x.body, gyro, accel, dt, gravity);
+  const Vec3 w = gyro - x.body.bg;
+  for (std::size_t i = 0; i < rolls.size(); ++i) {
+    const Vec3 u = rolls[i].u + (w - w_told).cross(rolls[i].lever);
+    next.feet[i] += x.body.R * Series(1, w * dt) * u * dt;
+  }
+  return next;
+}
+
 /// A foot's error is a position's.
 inline State AtFoot(const LeggedState& x, std::size_t foot) {
   State moved = x.body;
@@ -56,14 +75,14 @@ struct LeggedBelief {
   /// One IMU sample held over dt; a foot slips as white noise of that density. The sample's noise
   /// acts as a bias that lives one step: Φ's bias columns, less the bias itself.
   void Propagate(const Vec3& gyro, const Vec3& accel, Real dt, Real gravity,
-                 const estimator::ProcessNoise& noise, Real slip = 0) {
-    LeggedState next = x;
-    next.body = Step(x.body, gyro, accel, dt, gravity);
+                 const estimator::ProcessNoise& noise, Real slip = 0,
+                 const std::vector<Roll>& rolls = {}) {
+    const Vec3 w_told = gyro - x.body.bg;
+    const LeggedState next = Step(x, gyro, accel, dt, gravity, rolls, w_told);
     const MatX Phi = DifferencesAtZero(
         [&](const VecX& e) -> VecX {
-          LeggedState truth = TruthBehind(form, x, e);
-          truth.body = Step(truth.body, gyro, accel, dt, gravity);
-          return Error(form, next, truth);
+          const LeggedState truth = TruthBehind(form, x, e);
+          return Error(form, next, Step(truth, gyro, accel, dt, gravity, rolls, w_told));
         },
         size());
     VecX q = VecX::Zero(size());

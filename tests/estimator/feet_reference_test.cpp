@@ -125,6 +125,42 @@ TYPED_TEST(FeetReference, EveryStepAndEveryCorrectionOfAWalkIsTheDenseOne) {
   EXPECT_LT(this->corrected_.mean, 1e-12);
 }
 
+TYPED_TEST(FeetReference, ARollingFootIsTheDenseOne) {
+  this->Send(ContactsAt(0, true, false, true, true));
+  this->Send(JointsAt(0, Stance()));
+  for (int i = 0; i < 5; ++i) {
+    this->Move(this->setup_.noise.foot_slip_m_per_s_sqrt_hz);
+    this->Correct();
+  }
+  TypeParam core = this->filter_.core();
+  RollingFeet rolling;
+  std::vector<testing_estimator::Roll> rolls;
+  for (const int foot : {0, 2, 3}) {
+    rolling.u[foot] = this->draws_.Vector(0.3);
+    rolling.lever[foot] = this->draws_.Vector(0.02);
+    rolls.push_back(
+        {rolling.u[foot].template cast<Real>(), rolling.lever[foot].template cast<Real>()});
+  }
+  const Eigen::Vector3d gyro = this->draws_.Vector(1.0), accel = this->draws_.Vector(5.0);
+  const ProcessNoise noise{1e-4, 1e-3, 1e-6, 1e-6};
+  constexpr double kDt = 0.02;
+  LeggedBelief reference = BeliefOf(TypeParam::kForm, core.x(), core.P());
+  LeggedBelief standing = reference;
+  reference.Propagate(gyro.cast<Real>(), accel.cast<Real>(), kDt, this->setup_.gravity_m_s2, noise,
+                      0, rolls);
+  standing.Propagate(gyro.cast<Real>(), accel.cast<Real>(), kDt, this->setup_.gravity_m_s2, noise);
+  core.Propagate({gyro - core.x().gyro_bias, accel - core.x().accel_bias, kDt},
+                 {0, 0, -this->setup_.gravity_m_s2}, noise, &rolling);
+  const LeggedBelief moved = BeliefOf(TypeParam::kForm, core.x(), core.P());
+  Distance distance, without;
+  distance.Take(moved, reference);
+  without.Take(moved, standing);
+  EXPECT_LT(distance.covariance, 1e-12);
+  EXPECT_LT(distance.mean, 1e-13);
+  EXPECT_GT(without.covariance, 1e-8);  // a foot that stands is another one
+  EXPECT_GT(without.mean, 1e-4);
+}
+
 TYPED_TEST(FeetReference, NoticesASlipThatIsALittleLess) {
   this->Send(ContactsAt(0, true, true, true, true));
   this->Send(JointsAt(0, Stance()));

@@ -48,7 +48,7 @@ inline estimator::Setup QuadrupedSetup() {
     joints.push_back(names[i] + "_knee");
   }
   const auto robot = models::UrdfRobot::FromText(text + "</robot>");
-  models::LegSet legs{"joints", "contacts", {}};
+  models::LegSet legs{"joints", "contacts", {}, 0.0};
   for (const std::string& name : names) legs.legs.emplace_back(robot, name + "_foot", joints);
   setup.suite.legs = legs;
   setup.noise.joint_angle_rad = 2e-3;

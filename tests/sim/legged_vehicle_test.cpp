@@ -19,7 +19,7 @@ constexpr double kGravity = 9.81;
 
 /// Runs for a while and calls `look(truth)` at every step from `from_s` on.
 template <class Look>
-void Run(World& world, double from_s, double until_s, const Look& look) {
+void Watch(World& world, double from_s, double until_s, const Look& look) {
   for (double t = 0.0; t <= until_s; t += 0.001) {
     world.Advance();
     if (t >= from_s) look(world.TruthNow());
@@ -34,7 +34,7 @@ double SumOfNormals(const Truth& truth) {
 
 TEST(LeggedVehicle, StandsWithItsWholeWeightOnItsFeet) {
   World world(MiniCheetah(), Walk(0.0), 1);
-  Run(world, 1.0, 2.0, [](const Truth& truth) {
+  Watch(world, 1.0, 2.0, [](const Truth& truth) {
     ASSERT_EQ(truth.feet.count, 4);
     EXPECT_NEAR(SumOfNormals(truth), 9.06 * kGravity, 1e-3 * 9.06 * kGravity);
     for (const auto& foot : truth.feet.foot) {
@@ -51,7 +51,7 @@ TEST(LeggedVehicle, DoesNotCreepOnASlope) {
   World world(MiniCheetah(), config, 1);
   int gone = 0;
   double slip = 0.0;
-  Run(world, 5.0, 7.0, [&](const Truth& truth) {
+  Watch(world, 5.0, 7.0, [&](const Truth& truth) {
     for (const auto& foot : truth.feet.foot) {
       gone += foot.contact ? 0 : 1;
       slip = std::max(slip, foot.slip_m_s);
@@ -66,7 +66,7 @@ TEST(LeggedVehicle, TrotsAsFastAsItIsTold) {
     World world(robot, Walk(0.5), 1);
     double square = 0.0;
     int rows = 0, airborne = 0;
-    Run(world, 4.0, 12.0, [&](const Truth& truth) {
+    Watch(world, 4.0, 12.0, [&](const Truth& truth) {
       const double v = (truth.X_WB.R.transpose() * truth.v_WB).x();
       square += (v - 0.5) * (v - 0.5);
       ++rows;
@@ -83,7 +83,7 @@ TEST(LeggedVehicle, RollsOnItsFeetWithoutSkating) {
   World world(MiniCheetah(), Walk(0.5), 1);
   double rolled = 0.0, slipped = 0.0;
   int rows = 0;
-  Run(world, 4.0, 10.0, [&](const Truth& truth) {
+  Watch(world, 4.0, 10.0, [&](const Truth& truth) {
     for (const auto& foot : truth.feet.foot) {
       if (!foot.contact) continue;
       rolled += foot.centre_m_s;
@@ -97,8 +97,8 @@ TEST(LeggedVehicle, RollsOnItsFeetWithoutSkating) {
 
 TEST(LeggedVehicle, ChangesNothingForAnotherSeedWithoutAnythingRandom) {
   World one(MiniCheetah(), Walk(0.5), 1), other(MiniCheetah(), Walk(0.5), 2);
-  Run(one, 9.0, 3.0, [](const Truth&) {});
-  Run(other, 9.0, 3.0, [](const Truth&) {});
+  Watch(one, 9.0, 3.0, [](const Truth&) {});
+  Watch(other, 9.0, 3.0, [](const Truth&) {});
   EXPECT_EQ(one.TruthNow().X_WB.p, other.TruthNow().X_WB.p);
 }
 
@@ -106,8 +106,8 @@ TEST(LeggedVehicle, PushesDifferBySeed) {
   WorldConfig config = Walk(0.5);
   config.pushes = PushConfig{3.0, 2.0, 0.1};
   World one(MiniCheetah(), config, 1), other(MiniCheetah(), config, 2);
-  Run(one, 9.0, 3.0, [](const Truth&) {});
-  Run(other, 9.0, 3.0, [](const Truth&) {});
+  Watch(one, 9.0, 3.0, [](const Truth&) {});
+  Watch(other, 9.0, 3.0, [](const Truth&) {});
   EXPECT_NE(one.TruthNow().X_WB.p, other.TruthNow().X_WB.p);
 }
 
@@ -117,7 +117,7 @@ TEST(LeggedVehicle, WalksInTheAirWithoutTouching) {
   World world(MiniCheetah(), config, 1);
   double highest = 0.0;
   models::FootVector down = models::FootVector::Zero(4);
-  Run(world, 2.0, 4.0, [&](const Truth& truth) {
+  Watch(world, 2.0, 4.0, [&](const Truth& truth) {
     EXPECT_EQ(SumOfNormals(truth), 0.0);
     highest = std::max(highest, world.motion().joint_rate_rad_s.lpNorm<Eigen::Infinity>());
     down += world.motion().gait;
@@ -131,7 +131,7 @@ TEST(LeggedVehicle, SinksIntoSoftGround) {
   config.terrain.contact = {0.04, 1.0, 0.2, 0.95, 0.05};
   World world(MiniCheetah(), config, 1);
   double height = 0.0;
-  Run(world, 1.0, 1.0, [&](const Truth& truth) { height = truth.X_WB.p.z(); });
+  Watch(world, 1.0, 1.0, [&](const Truth& truth) { height = truth.X_WB.p.z(); });
   EXPECT_LT(height, 0.26);  // of 0.29 on hard ground; 44 mm measured
   EXPECT_GT(height, 0.22);
 }
@@ -141,7 +141,7 @@ TEST(LeggedVehicle, SkatesWherePatchesAreIce) {
   config.patches = {{{2.0, 0.0, 1.0, 10.0}, 0.1}};
   World world(MiniCheetah(), config, 1);
   double on = 0.0, off = 0.0;
-  Run(world, 1.0, 9.0, [&](const Truth& truth) {
+  Watch(world, 1.0, 9.0, [&](const Truth& truth) {
     const double x = truth.X_WB.p.x();
     for (const auto& foot : truth.feet.foot) {
       if (foot.normal_n > 1.0 && foot.tangential_n > 0.11 * foot.normal_n) {
@@ -157,7 +157,7 @@ TEST(LeggedVehicle, SaysHowItFell) {
   WorldConfig config = Walk(0.5);
   config.pushes = PushConfig{60.0, 2.0, 0.1};
   World world(MiniCheetah(), config, 1);
-  const std::string message = Message<WorldFailure>([&] { Run(world, 9.0, 10.0, [](auto&) {}); });
+  const std::string message = Message<WorldFailure>([&] { Watch(world, 9.0, 10.0, [](auto&) {}); });
   EXPECT_NE(message.find("the robot fell"), std::string::npos) << message;
   EXPECT_NE(message.find("t = "), std::string::npos) << message;
 }
