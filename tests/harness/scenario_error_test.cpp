@@ -104,7 +104,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"RobotOutsideModels", "robot: ../models/husky\n",
              "sc.yaml:1:8: error: '/robot': there is no robot '../models/husky' in models/"},
         Case{"UnknownTerrain", "world: {terrain: {kind: ruogh}}\n",
-             "sc.yaml:1:25: error: '/world/terrain/kind': expected flat, slope, rough or kerbs, "
+             "sc.yaml:1:25: error: '/world/terrain/kind': expected flat, slope, rough, kerbs, "
+             "stairs, debris or gravel, "
              "found 'ruogh'; did you mean 'rough'?"},
         Case{"NewSensorWithoutFrame", "sensors: {dvl: {type: body_velocity}}\n",
              "sc.yaml:1:16: error: '/sensors/dvl' needs the key 'frame'"},
@@ -262,7 +263,8 @@ INSTANTIATE_TEST_SUITE_P(
     Legs, WrongText,
     testing::Values(
         Case{"GaitWithoutStance", "robot: mini_cheetah\ncontrol: {gait: {duty: 0}}\n",
-             "sc.yaml:2:24: error: '/control/gait/duty': expected a number from 0.1 to 0.95, found "
+             "sc.yaml:2:24: error: '/control/gait/duty': expected a finite number from 0.1 to "
+             "0.95, found "
              "'0'"},
         Case{
             "MissingFoot",
@@ -280,7 +282,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"StairsForWheels", "robot: husky\nworld:\n  terrain: {kind: stairs}\n",
              "sc.yaml:3:19: error: '/world/terrain/kind': expected ground for a robot without "
              "legs, found 'stairs'"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& test) { return test.param.name; });
 
 TEST(ScenarioError, ChannelsThatTheSensorHasAreRead) {
   const auto channels = [](const std::string& sensor, const std::string& word) {

@@ -157,7 +157,8 @@ TEST(LeggedVehicle, SaysHowItFell) {
   WorldConfig config = Walk(0.5);
   config.pushes = PushConfig{60.0, 2.0, 0.1};
   World world(MiniCheetah(), config, 1);
-  const std::string message = Message<WorldFailure>([&] { Watch(world, 9.0, 10.0, [](auto&) {}); });
+  const std::string message =
+      Message<WorldFailure>([&] { Watch(world, 9.0, 10.0, [](const Truth&) {}); });
   EXPECT_NE(message.find("the robot fell"), std::string::npos) << message;
   EXPECT_NE(message.find("t = "), std::string::npos) << message;
 }

@@ -103,7 +103,7 @@ TEST_P(Legs, WeighWhatTheSimulatorWeighs) {
 
 TEST_P(Legs, HaveTheSimulatorsMassMatrix) {
   RowMajor M(model_->nv, model_->nv);
-  mj_fullM(model_.get(), M.data(), data_->M);
+  mj_fullM(model_.get(), data_.get(), M.data());
   for (int leg = 0; leg < body_.legs(); ++leg) {
     const auto own = body_.dynamics(leg).MassMatrix(LeggedBody::Of(leg, q_));
     for (int i = 0; i < LeggedBody::kLegJoints; ++i) {
@@ -154,7 +154,7 @@ TEST_P(Legs, GravityAloneIsHeldByItsTorque) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Both, Legs, testing::Values(MiniCheetah(), Raibo()),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& test) { return test.param.name; });
 
 }  // namespace
 }  // namespace reckon::sim
