@@ -184,7 +184,7 @@ TEST(Schema, RefusesWhatTheReaderRefuses) {
            "estimators: {a: {type: iterated_inekf, iterations: 0}}\n",
            "estimators: {a: {type: odometry, floor: {use: false}}}\n",
            "estimators: {a: {history_s: 11}}\n",
-           "sensors: {feet: {type: contacts, frame: base_link}}\n",
+           "sensors: {feet: {type: toes, frame: base_link}}\n",
            "sensors: {p: {type: pose, frame: base_link, noise_position_m: 1}}\n",
            "estimators: {a: {noise: loud}}\n",
            "estimators: {a: {type: mekf, command: [cat]}}\n",
