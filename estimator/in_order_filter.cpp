@@ -101,10 +101,12 @@ void InOrderFilter<Core>::AdvanceTo(TimeNs t_ns) {
     const Increment u(Rate() - core_.x().gyro_bias, held_.accel() - core_.x().accel_bias, dt);
     ProcessNoise noise = NoiseAt(t_ns_);
     widening_.Spend(noise, core_.P(), dt);
-    RollingFeet rolling;
-    const bool rolls = beliefs_->rolling_radius_m > 0.0 && !core_.P().slots().feet().empty();
-    if (rolls) rolling = feet_.Rolling(u.w, core_.x(), beliefs_->rolling_radius_m);
-    core_.Propagate(u, beliefs_->gravity, noise, rolls ? &rolling : nullptr);
+    if (beliefs_->rolling_radius_m > 0.0 && !core_.P().slots().feet().empty()) {
+      const RollingFeet rolling = feet_.Rolling(u.w, core_.x(), beliefs_->rolling_radius_m);
+      core_.Propagate(u, beliefs_->gravity, noise, &rolling);
+    } else {
+      core_.Propagate(u, beliefs_->gravity, noise);
+    }
     for (const Slot slot : core_.P().active()) {
       if (IsFoot(slot)) core_.P()(slot, slot) += LaneMatrix::Diagonal(slip * slip * dt);
     }

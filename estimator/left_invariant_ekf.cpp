@@ -22,11 +22,10 @@ using Eigen::Vector3d;
   const LaneMatrix turn = Transposed(u.G0);
   if (rolling != nullptr) {
     for (const Slot foot : P_.slots().feet()) {
-      const Lane velocity = rolling->Velocity(foot), moved = dt * (u.G1 * velocity);
-      x_.At(foot) = ToEigen(ToLane(x_.At(foot)) + R * moved);
-      P_.AddRow(foot, CrossProduct{-moved}, kThetaSlot);
-      J.gyro[foot] = dt * (turn * (u.G1 * rolling->LeverCross(foot))) -
-                     dt2 * (turn * u.series.GammaDerivative(1, velocity));
+      const RollingFeet::Step step = rolling->Over(u, foot);
+      x_.At(foot) = ToEigen(ToLane(x_.At(foot)) + R * step.moved);
+      P_.AddRow(foot, CrossProduct{-step.moved}, kThetaSlot);
+      J.gyro[foot] = turn * step.by_bias;
     }
   }
   P_.slots().loops().ForEachMoved([&](Slot slot) { P_.MapRow(slot, turn); });

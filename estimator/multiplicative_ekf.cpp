@@ -21,11 +21,10 @@ using Eigen::Vector3d;
   BiasColumns J;
   if (rolling != nullptr) {
     for (const Slot foot : P_.slots().feet()) {
-      const Lane velocity = rolling->Velocity(foot), moved = dt * (u.G1 * velocity);
-      x_.At(foot) = ToEigen(ToLane(x_.At(foot)) + R * moved);
-      P_.AddRow(foot, -1.0 * (R * DiagonalAndCross(0.0, moved)), kThetaSlot);
-      J.gyro[foot] = dt * (R * (u.G1 * rolling->LeverCross(foot))) -
-                     dt2 * (R * u.series.GammaDerivative(1, velocity));
+      const RollingFeet::Step step = rolling->Over(u, foot);
+      x_.At(foot) = ToEigen(ToLane(x_.At(foot)) + R * step.moved);
+      P_.AddRow(foot, -1.0 * (R * DiagonalAndCross(0.0, step.moved)), kThetaSlot);
+      J.gyro[foot] = R * step.by_bias;
     }
   }
   P_.MapRow(kThetaSlot, Transposed(u.G0));

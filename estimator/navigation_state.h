@@ -28,22 +28,6 @@ struct NavigationState {
   }
 };
 
-/// How the middles of round feet move while their contact points stand: with the rate ω of a foot
-/// and the lever l from the contact point to its middle, u = ω × l. Both in I's axes, held over a
-/// step; zero for feet that do not roll.
-struct RollingFeet {
-  std::array<Eigen::Vector3d, kMaxFeet> u, lever;
-
-  RollingFeet() {
-    u.fill(Eigen::Vector3d::Zero());
-    lever.fill(Eigen::Vector3d::Zero());
-  }
-  Lane Velocity(Slot foot) const { return ToLane(u[foot - kFirstFootSlot]); }
-  LaneMatrix LeverCross(Slot foot) const {
-    return DiagonalAndCross(0.0, ToLane(lever[foot - kFirstFootSlot]));
-  }
-};
-
 /// An IMU sample in the axes of I, less the biases, held over `dt`: what moves a state, with the
 /// series that every line of a propagation needs.
 struct Increment {
@@ -60,6 +44,27 @@ struct Increment {
   double dt;
   RotationSeries<> series;
   LaneMatrix G0, G1, G2;
+};
+
+/// How the middles of round feet move while their contact points stand: with the rate ω of a foot
+/// and the lever l from the contact point to its middle, u = ω × l. A column a foot, in I's axes,
+/// held over a step; zero for feet that do not roll.
+struct RollingFeet {
+  using Columns = Eigen::Matrix<double, 3, kMaxFeet>;
+  Columns u = Columns::Zero(), lever = Columns::Zero();
+
+  /// What a step does to a foot, in the axes of before it: Γ1 u Δt, and the derivative of that by
+  /// the gyroscope's bias, Γ1 [l]× Δt − ∂(Γ1 u)/∂φ Δt².
+  struct Step {
+    Lane moved;
+    LaneMatrix by_bias;
+  };
+  Step Over(const Increment& i, Slot foot) const {
+    const Eigen::Index column = foot - kFirstFootSlot;
+    const Lane v = ToLane(u.col(column));
+    return {i.dt * (i.G1 * v), i.dt * (i.G1 * DiagonalAndCross(0.0, ToLane(lever.col(column)))) -
+                                   i.dt * i.dt * i.series.GammaDerivative(1, v)};
+  }
 };
 
 /// The state after `u` [Hartley20, strapdown integration with the sample held]:

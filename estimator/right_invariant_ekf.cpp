@@ -8,7 +8,7 @@ using Eigen::Vector3d;
                                                    const ProcessNoise& noise,
                                                    const RollingFeet* rolling) {
   const double dt = u.dt;
-  const LaneMatrix R_dt = dt * ToLanes(x_.R);
+  const LaneMatrix R = ToLanes(x_.R), R_dt = dt * R;
   x_ = Propagated(x_, u, g);
 
   // Gravity and velocity; the position first, it reads the old velocity.
@@ -29,14 +29,13 @@ using Eigen::Vector3d;
   J.accel_velocity = theta_g;
   J.accel_position = -dt * (R_dt * u.G2);
   for (const Slot foot : P_.slots().feet()) {
-    LaneMatrix rolled = DiagonalAndCross(0.0, Lane::Zero());
-    if (rolling != nullptr) {
-      const Lane velocity = rolling->Velocity(foot);
-      x_.At(foot) = ToEigen(ToLane(x_.At(foot)) + R_dt * (u.G1 * velocity));
-      rolled = R_dt * (u.G1 * rolling->LeverCross(foot)) -
-               dt * (R_dt * u.series.GammaDerivative(1, velocity));
+    if (rolling == nullptr) {
+      J.gyro[foot] = Cross(ToLane(x_.At(foot)), theta_g);
+      continue;
     }
-    J.gyro[foot] = Cross(ToLane(x_.At(foot)), theta_g) + rolled;
+    const RollingFeet::Step step = rolling->Over(u, foot);
+    x_.At(foot) = ToEigen(ToLane(x_.At(foot)) + R * step.moved);
+    J.gyro[foot] = Cross(ToLane(x_.At(foot)), theta_g) + R * step.by_bias;
   }
   P_.AddBiases(J, noise, dt);
 }

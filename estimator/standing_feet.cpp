@@ -18,7 +18,7 @@ StandingFeet::Readings StandingFeet::Read(const models::EncoderSample& y,
   for (std::size_t i = 0; i < legs.size(); ++i) {
     if (!stands_[i]) continue;
     readings[i] = ReadFoot(legs[i], y.angle_rad, beliefs.p_BI, beliefs.setup.noise, y.rate_rad_s);
-    link_rate_[i] = readings[i].w_rad_s;
+    link_rate_.col(static_cast<Eigen::Index>(i)) = readings[i].w_rad_s;
   }
   return readings;
 }
@@ -27,10 +27,10 @@ RollingFeet StandingFeet::Rolling(const Eigen::Vector3d& w_rad_s, const Navigati
                                   double radius_m) const {
   RollingFeet rolling;
   const Eigen::Vector3d lever = radius_m * x.R.row(2).transpose();
-  for (std::size_t i = 0; i < stands_.size(); ++i) {
+  for (Eigen::Index i = 0; i < kMaxFeet; ++i) {
     if (!stands_[i]) continue;
-    rolling.lever[i] = lever;
-    rolling.u[i] = (w_rad_s + link_rate_[i]).cross(lever);
+    rolling.lever.col(i) = lever;
+    rolling.u.col(i) = (w_rad_s + link_rate_.col(i)).cross(lever);
   }
   return rolling;
 }

@@ -34,9 +34,7 @@ class StandingFeet {
 
  private:
   std::array<bool, kMaxFeet> stands_{};
-  std::array<Eigen::Vector3d, kMaxFeet> link_rate_{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(),
-                                                   Eigen::Vector3d::Zero(),
-                                                   Eigen::Vector3d::Zero()};  ///< in B
+  RollingFeet::Columns link_rate_ = RollingFeet::Columns::Zero();  ///< in B
 };
 
 }  // namespace reckon::estimator

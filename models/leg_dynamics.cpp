@@ -10,32 +10,17 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// The inertia about a point of a body of mass m whose centre lies at `r` from it.
-Matrix3d Shifted(double m, const Vector3d& r) {
-  return m * (r.squaredNorm() * Matrix3d::Identity() - r * r.transpose());
-}
-
-}  // namespace
-
-void LegDynamics::AddMass(const UrdfInertial& inertial, const Pose& X_LB, Link& link) {
-  const double mass = link.mass_kg + inertial.mass_kg;
-  const Vector3d p = X_LB * inertial.p_LC;
-  const Vector3d centre = (link.mass_kg * link.p_LC + inertial.mass_kg * p) / mass;
-  link.I_C += Shifted(link.mass_kg, link.p_LC - centre) + Shifted(inertial.mass_kg, p - centre) +
-              X_LB.R * inertial.I_C_L * X_LB.R.transpose();
-  link.mass_kg = mass;
-  link.p_LC = centre;
-}
-
-/// `link` lies at X in the moving link and belongs to it, with all that is fixed to it.
-void LegDynamics::AddFixedLinks(const UrdfRobot& robot, int link, const Pose& X, Link& moving) {
+/// Takes `link`, which lies at X in a moving link, into its mass, and all that is fixed to it.
+void AddFixedLinks(const UrdfRobot& robot, int link, const Pose& X, UrdfInertial& moving) {
   const UrdfLink& body = robot.links()[static_cast<std::size_t>(link)];
-  if (body.inertial) AddMass(*body.inertial, X, moving);
+  if (body.inertial) moving.Add(*body.inertial, X);
   for (const UrdfJoint& joint : robot.joints()) {
     if (joint.parent != link || joint.type != JointType::kFixed) continue;
     AddFixedLinks(robot, joint.child, X * joint.X_PJ, moving);
   }
 }
+
+}  // namespace
 
 LegDynamics::LegDynamics(const UrdfRobot& robot, const std::string& foot,
                          std::span<const std::string> encoders, std::span<const double> armature) {
@@ -46,7 +31,7 @@ LegDynamics::LegDynamics(const UrdfRobot& robot, const std::string& foot,
     X_PJ = X_PJ * joint.X_PJ;
     if (joint.type == JointType::kFixed) continue;
     Link link{X_PJ, joint.axis, joint.type != JointType::kPrismatic};
-    AddFixedLinks(robot, joint.child, {}, link);
+    AddFixedLinks(robot, joint.child, {}, link.mass);
     chain_.push_back(link);
     X_PJ = {};
   }
@@ -82,9 +67,9 @@ LegVector LegDynamics::InverseDynamics(const LegVector& q, const LegVector& dq,
     } else {
       a += 2.0 * w.cross(dq[i] * link.axis) + ddq[i] * link.axis;
     }
-    const Vector3d a_C = a + dw.cross(link.p_LC) + w.cross(w.cross(link.p_LC));
-    f[k] = link.mass_kg * a_C;
-    n[k] = link.I_C * dw + w.cross(link.I_C * w) + link.p_LC.cross(f[k]);
+    const Vector3d a_C = a + dw.cross(link.mass.p_LC) + w.cross(w.cross(link.mass.p_LC));
+    f[k] = link.mass.mass_kg * a_C;
+    n[k] = link.mass.I_C_L * dw + w.cross(link.mass.I_C_L * w) + link.mass.p_LC.cross(f[k]);
   }
   LegVector torque(q.size());
   Vector3d force = Vector3d::Zero(), moment = Vector3d::Zero();  // on the next link, in this one

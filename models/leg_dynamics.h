@@ -50,14 +50,9 @@ class LegDynamics {
     Pose X_PJ;  ///< from the parent's moving link to the joint at zero
     Eigen::Vector3d axis;
     bool turns;
-    double mass_kg = 0.0;
-    Eigen::Vector3d p_LC = Eigen::Vector3d::Zero();  ///< centre of mass
-    Eigen::Matrix3d I_C = Eigen::Matrix3d::Zero();   ///< about it
+    UrdfInertial mass = {};  ///< in the axes of the child link
     double armature_kg_m2 = 0.0;
   };
-
-  static void AddMass(const UrdfInertial& inertial, const Pose& X_LB, Link& link);
-  static void AddFixedLinks(const UrdfRobot& robot, int link, const Pose& X, Link& moving);
 
   std::vector<Link> chain_;
 };

@@ -182,6 +182,19 @@ Pose Motion(const UrdfJoint& joint, double q) {
 
 }  // namespace
 
+void UrdfInertial::Add(const UrdfInertial& body, const Pose& X_LB) {
+  const Eigen::Vector3d p = X_LB * body.p_LC;
+  const double sum_kg = mass_kg + body.mass_kg;
+  const Eigen::Vector3d apart = p - p_LC;
+  // Both about the common centre [Steiner]: together the reduced mass at their distance.
+  const double reduced_kg = mass_kg * body.mass_kg / sum_kg;
+  I_C_L +=
+      X_LB.R * body.I_C_L * X_LB.R.transpose() +
+      reduced_kg * (apart.squaredNorm() * Eigen::Matrix3d::Identity() - apart * apart.transpose());
+  p_LC += body.mass_kg / sum_kg * apart;
+  mass_kg = sum_kg;
+}
+
 UrdfRobot UrdfRobot::FromFile(const std::string& path) { return FromText(ReadText(path), path); }
 
 UrdfRobot UrdfRobot::FromText(const std::string& xml, const std::string& source) {

@@ -19,6 +19,9 @@ struct UrdfInertial {
   double mass_kg = 0.0;
   Eigen::Vector3d p_LC = Eigen::Vector3d::Zero();
   Eigen::Matrix3d I_C_L = Eigen::Matrix3d::Zero();
+
+  /// Adds the mass of another link at X_LB, as if it were fixed to this one.
+  void Add(const UrdfInertial& body, const Pose& X_LB);
 };
 
 /// A rigid link; `inertial` is absent for pure frames (sensors).

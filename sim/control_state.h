@@ -8,7 +8,7 @@
 
 namespace reckon::sim {
 
-/// What a controller knows of its robot: the truth, or what an estimator believes.
+/// What a controller knows of its robot.
 struct ControlState {
   models::Pose X_WB;
   Eigen::Vector3d v_WB = Eigen::Vector3d::Zero();

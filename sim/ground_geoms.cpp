@@ -10,6 +10,18 @@ namespace {
 constexpr double kBasement = 1.0;                         // m under a heightfield's lowest node
 constexpr double kLeastNodes = 2.0, kMostNodes = 2000.0;  // a side
 
+/// Of two colours in a pattern that the engine knows.
+void AddTexture(mjSpec* spec, const std::string& name, mjtTexture type, mjtBuiltin pattern,
+                const double (&first)[3], const double (&second)[3]) {
+  mjsTexture* texture = mjs_addTexture(spec, nullptr);
+  mjs_setName(texture->element, name.c_str());
+  texture->type = type;
+  texture->builtin = pattern;
+  texture->width = texture->height = 64;
+  std::copy(first, first + 3, texture->rgb1);
+  std::copy(second, second + 3, texture->rgb2);
+}
+
 }  // namespace
 
 void SetPosition(mjsGeom* geom, double x, double y, double z) {
@@ -62,13 +74,7 @@ mjsGeom* AddHeightfield(mjSpec* spec, mjsBody* world, const std::string& name,
 
 void AddChecker(mjSpec* spec, const std::string& name, const double (&light)[3],
                 const double (&dark)[3], double square_m) {
-  mjsTexture* texture = mjs_addTexture(spec, nullptr);
-  mjs_setName(texture->element, name.c_str());
-  texture->type = mjTEXTURE_2D;
-  texture->builtin = mjBUILTIN_CHECKER;
-  texture->width = texture->height = 64;
-  std::copy(light, light + 3, texture->rgb1);
-  std::copy(dark, dark + 3, texture->rgb2);
+  AddTexture(spec, name, mjTEXTURE_2D, mjBUILTIN_CHECKER, light, dark);
   mjsMaterial* material = mjs_addMaterial(spec, nullptr);
   mjs_setName(material->element, name.c_str());
   mjs_setInStringVec(material->textures, mjTEXROLE_RGB, name.c_str());
@@ -80,13 +86,7 @@ void AddChecker(mjSpec* spec, const std::string& name, const double (&light)[3],
 
 void AddSky(mjSpec* spec, const std::string& name, const double (&above)[3],
             const double (&level)[3]) {
-  mjsTexture* texture = mjs_addTexture(spec, nullptr);
-  mjs_setName(texture->element, name.c_str());
-  texture->type = mjTEXTURE_SKYBOX;
-  texture->builtin = mjBUILTIN_GRADIENT;
-  texture->width = texture->height = 64;
-  std::copy(above, above + 3, texture->rgb1);
-  std::copy(level, level + 3, texture->rgb2);
+  AddTexture(spec, name, mjTEXTURE_SKYBOX, mjBUILTIN_GRADIENT, above, level);
 }
 
 }  // namespace reckon::sim

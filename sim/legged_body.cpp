@@ -8,9 +8,6 @@
 namespace reckon::sim {
 namespace {
 
-using Eigen::Matrix3d;
-using Eigen::Vector3d;
-
 void Require(bool holds, const std::string& sentence) {
   if (!holds) throw std::invalid_argument("drive: " + sentence);
 }
@@ -33,10 +30,6 @@ void CheckLists(const LeggedConfig& config) {
             std::string(key) + " must have one entry for each of a leg's three joints, and has " +
                 std::to_string(list->size()));
   }
-}
-
-Matrix3d Shifted(double m, const Vector3d& r) {
-  return m * (r.squaredNorm() * Matrix3d::Identity() - r * r.transpose());
 }
 
 }  // namespace
@@ -98,21 +91,10 @@ void LeggedBody::WeighStanding(const models::UrdfRobot& urdf) {
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     q[urdf.JointIndex(joints_[i])] = stand_angles_rad_[static_cast<Eigen::Index>(i)];
   }
-  const auto for_each_mass = [&](const auto& use) {
-    for (std::size_t i = 0; i < urdf.links().size(); ++i) {
-      const auto& inertial = urdf.links()[i].inertial;
-      if (inertial) use(*inertial, urdf.LinkPose(static_cast<int>(i), q));
-    }
-  };
-  for_each_mass([this](const models::UrdfInertial& body, const models::Pose& X_BL) {
-    mass_kg_ += body.mass_kg;
-    p_BC_ += body.mass_kg * (X_BL * body.p_LC);
-  });
-  p_BC_ /= mass_kg_;
-  for_each_mass([this](const models::UrdfInertial& body, const models::Pose& X_BL) {
-    inertia_kg_m2_ +=
-        X_BL.R * body.I_C_L * X_BL.R.transpose() + Shifted(body.mass_kg, X_BL * body.p_LC - p_BC_);
-  });
+  for (std::size_t i = 0; i < urdf.links().size(); ++i) {
+    const auto& inertial = urdf.links()[i].inertial;
+    if (inertial) whole_.Add(*inertial, urdf.LinkPose(static_cast<int>(i), q));
+  }
 }
 
 }  // namespace reckon::sim

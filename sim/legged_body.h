@@ -47,9 +47,9 @@ class LeggedBody {
   double foot_radius_m() const { return foot_radius_m_; }
 
   // Of the whole robot as it stands, about its centre of mass C.
-  double mass_kg() const { return mass_kg_; }
-  const Eigen::Vector3d& p_BC() const { return p_BC_; }
-  const Eigen::Matrix3d& inertia_kg_m2() const { return inertia_kg_m2_; }
+  double mass_kg() const { return whole_.mass_kg; }
+  const Eigen::Vector3d& p_BC() const { return whole_.p_LC; }
+  const Eigen::Matrix3d& inertia_kg_m2() const { return whole_.I_C_L; }
 
  private:
   void WeighStanding(const models::UrdfRobot& urdf);
@@ -59,9 +59,8 @@ class LeggedBody {
   std::vector<models::LegDynamics> dynamics_;
   std::vector<Eigen::Vector3d> stand_foot_;
   models::EncoderVector stand_angles_rad_, torque_limit_n_m_;
-  double stand_height_m_ = 0.0, foot_radius_m_ = 0.0, mass_kg_ = 0.0;
-  Eigen::Vector3d p_BC_ = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d inertia_kg_m2_ = Eigen::Matrix3d::Zero();
+  double stand_height_m_ = 0.0, foot_radius_m_ = 0.0;
+  models::UrdfInertial whole_;
 };
 
 }  // namespace reckon::sim

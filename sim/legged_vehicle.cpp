@@ -41,9 +41,7 @@ models::Pose StartPose(const LeggedBody& body, const Terrain& terrain) {
   }
   plane.Start(under, Eigen::Vector2d::Zero());
   models::Pose X_WB;
-  X_WB.R.col(2) = plane.normal();
-  X_WB.R.col(0) = Vector3d::UnitY().cross(X_WB.R.col(2)).normalized();
-  X_WB.R.col(1) = X_WB.R.col(2).cross(X_WB.R.col(0));
+  X_WB.R = StandOn(plane.slope());
   double height = -1e9;
   for (int i = 0; i < body.legs(); ++i) {
     const Vector3d foot = X_WB.R * body.stand_foot(i);
@@ -73,10 +71,8 @@ LeggedVehicle::LeggedVehicle(const RobotConfig& robot, const WorldConfig& config
       contacts_(*model_, DriveOf(robot).feet),
       push_draws_(seed, "pushes"),
       base_body_(mj_name2id(model_.get(), mjOBJ_BODY, robot.base_link.c_str())),
-      control_period_ns_(StepsPerCall(WalkingController::kRateHz, config.physics_step_s) *
-                         std::llround(config.physics_step_s * 1e9)),
-      driver_period_ns_(StepsPerCall(Driver::kRateHz, config.physics_step_s) *
-                        std::llround(config.physics_step_s * 1e9)),
+      control_period_ns_(NsPerCall(WalkingController::kRateHz, config.physics_step_s)),
+      driver_period_ns_(NsPerCall(Driver::kRateHz, config.physics_step_s)),
       wanted_n_m_(models::EncoderVector::Zero(body_.stand_angles_rad().size())),
       torque_n_m_(wanted_n_m_) {
   for (std::size_t i = 0; i < body_.joints().size(); ++i) {
@@ -123,7 +119,7 @@ ControlState LeggedVehicle::TrueState(const VehicleState& now) const {
 }
 
 void LeggedVehicle::Control(models::TimeNs t_ns, const VehicleState& now) {
-  const ControlState state = believed_ ? *believed_ : TrueState(now);
+  const ControlState state = TrueState(now);
   if (t_ns >= 0 && t_ns % driver_period_ns_ == 0) {
     const auto& [R, p] = state.X_WB;
     const DriveCommand asked = driver_.Update(models::Seconds(t_ns), p.head<2>(), HeadingOf(R));
@@ -189,8 +185,7 @@ bool LeggedVehicle::IsSettled() const {
 std::optional<std::string> LeggedVehicle::Trouble(const VehicleState& state) const {
   const auto& [R, p] = state.X_WB;
   if (auto outside = terrain_.Outside(p.x(), p.y())) return outside;
-  static const double least_upright = std::cos(kFallenTiltDeg * std::numbers::pi / 180.0);
-  if (R(2, 2) < least_upright) return "the robot fell: it tilted by more than 60 degrees";
+  if (LeansBeyond(kFallenTiltDeg, R)) return "the robot fell: it tilted by more than 60 degrees";
   if (FootContacts::TrunkTouches(*model_, *data_))
     return "the robot fell: its trunk hit the ground";
   return std::nullopt;

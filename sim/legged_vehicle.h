@@ -26,7 +26,6 @@ class LeggedVehicle : public Vehicle {
   VehicleState Read() override;
   void Step(models::TimeNs t_ns, VehicleState& now) override;
   bool IsSettled() const override;
-  void Believe(const ControlState& state) override { believed_ = state; }
   std::optional<std::string> Trouble(const VehicleState& state) const override;
 
  private:
@@ -52,7 +51,6 @@ class LeggedVehicle : public Vehicle {
   models::TimeNs control_period_ns_, driver_period_ns_;
   long long steps_ = 0;
   WalkCommand command_;
-  std::optional<ControlState> believed_;
   models::EncoderVector wanted_n_m_, torque_n_m_;
   ground_truth::FeetTruth feet_;  ///< of the step before
 };

@@ -18,15 +18,6 @@ models::UrdfRobot ReadUrdf(const RobotConfig& robot, const ActualConfig& actual)
   return urdf;
 }
 
-/// x forward over the ground, so that the yaw is 0, and z along the ground's normal.
-Eigen::Matrix3d StandOn(const Ground& ground) {
-  Eigen::Matrix3d R;
-  R.col(2) = Eigen::Vector3d(-ground.hx, -ground.hy, 1.0).normalized();
-  R.col(0) = Eigen::Vector3d::UnitY().cross(R.col(2)).normalized();
-  R.col(1) = R.col(2).cross(R.col(0));
-  return R;
-}
-
 }  // namespace
 
 SkidSteerVehicle::SkidSteerVehicle(const RobotConfig& robot, const WorldConfig& config,
@@ -40,10 +31,9 @@ SkidSteerVehicle::SkidSteerVehicle(const RobotConfig& robot, const WorldConfig& 
       terrain_(std::move(terrain)),
       driver_(config.motion),
       steer_(robot, config, urdf, *model_),
-      driver_period_ns_(StepsPerCall(Driver::kRateHz, config.physics_step_s) *
-                        std::llround(config.physics_step_s * 1e9)) {
+      driver_period_ns_(NsPerCall(Driver::kRateHz, config.physics_step_s)) {
   const Ground ground = terrain_.At(0.0, 0.0);
-  const Eigen::Matrix3d R_WB = StandOn(ground);
+  const Eigen::Matrix3d R_WB = StandOn({ground.hx, ground.hy});
   const double z = ground.h + steer_.RestHeight(*model_) / R_WB(2, 2);
   steer_.PlaceBase({R_WB, {0.0, 0.0, z}}, *data_);
   steer_.SetBrake(true);

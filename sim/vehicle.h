@@ -8,7 +8,6 @@
 #include "reckon/ground_truth/truth.h"
 #include "reckon/models/encoder_sample.h"
 #include "reckon/models/pose.h"
-#include "reckon/sim/control_state.h"
 #include "reckon/sim/mujoco_model.h"
 #include "reckon/sim/surroundings.h"
 
@@ -46,9 +45,6 @@ class Vehicle {
   /// It has come to rest: brakes are released. The steps up to t = 0 follow.
   virtual void Release() {}
 
-  /// Tells its controller what it is to believe from now on, where that is not the truth.
-  virtual void Believe(const ControlState& /*state*/) {}
-
   /// What ends the run in this state: the robot left the map, turned over; nothing if all is well.
   virtual std::optional<std::string> Trouble(const VehicleState& state) const = 0;
 
@@ -68,6 +64,11 @@ class Vehicle {
 /// How many physics steps lie between two calls of a controller: at least one.
 inline long long StepsPerCall(double rate_hz, double step_s) {
   return std::max(1LL, std::llround(1.0 / (rate_hz * step_s)));
+}
+
+/// The same in nanoseconds.
+inline models::TimeNs NsPerCall(double rate_hz, double step_s) {
+  return StepsPerCall(rate_hz, step_s) * std::llround(step_s * 1e9);
 }
 
 }  // namespace reckon::sim

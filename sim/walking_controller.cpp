@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "reckon/sim/attitude.h"
 #include "reckon/sim/rotation_vector.h"
@@ -155,8 +156,8 @@ void WalkingController::LowerOntoGround(const ControlState& x) {
 
 void WalkingController::MoveReferences(const ControlState& x) {
   yaw_wanted_ += yaw_rate_ * kDt;
-  yaw_wanted_ = yaw_ + std::clamp(std::remainder(yaw_wanted_ - yaw_, 2.0 * M_PI), -kMostTurnLag,
-                                  kMostTurnLag);
+  yaw_wanted_ = yaw_ + std::clamp(std::remainder(yaw_wanted_ - yaw_, 2.0 * std::numbers::pi),
+                                  -kMostTurnLag, kMostTurnLag);
   const Vector2d p = x.X_WB.p.head<2>();
   if (clock_.walking()) {
     p_wanted_ += v_command_ * kDt;

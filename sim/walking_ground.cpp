@@ -43,7 +43,7 @@ mjsGeom* AddBox(const Box& box, const Colour& colour, mjsBody* world) {
 
 /// Flights up and down in turn, along x on both sides of the start.
 void AddStairs(const TerrainConfig& terrain, mjsBody* world) {
-  const double half_width = terrain.half_size_m + kOverhang, end = terrain.half_size_m + kOverhang;
+  const double end = terrain.half_size_m + kOverhang;
   for (const double side : {1.0, -1.0}) {
     int level = 0, rise = 1;
     for (double x = kClearStart; x < end;) {
@@ -52,8 +52,7 @@ void AddStairs(const TerrainConfig& terrain, mjsBody* world) {
       const double depth = last ? kLanding : terrain.step_depth_m;
       if (last) rise = -rise;
       const double top = level * terrain.step_height_m;
-      const Box step{
-          side * (x + depth / 2.0), 0.0, top / 2.0, {depth / 2.0, half_width, top / 2.0}};
+      const Box step{side * (x + depth / 2.0), 0.0, top / 2.0, {depth / 2.0, end, top / 2.0}};
       if (level > 0) SetGroundContact(terrain, 1, AddBox(step, kStep, world));
       x += depth;
     }

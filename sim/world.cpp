@@ -73,7 +73,6 @@ class World::Impl {
   const MotionWindow& motion() const { return motion_; }
 
   const Vehicle& vehicle() const { return *vehicle_; }
-  void Believe(const ControlState& state) { vehicle_->Believe(state); }
 
   Environment environment() const {
     Environment environment;
@@ -162,7 +161,6 @@ World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
 void World::Advance() { impl_->Advance(); }
-void World::Believe(const ControlState& state) { impl_->Believe(state); }
 const MotionWindow& World::motion() const { return impl_->motion(); }
 Environment World::environment() const { return impl_->environment(); }
 const mjModel_& World::physics_model() const { return impl_->vehicle().model(); }

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "reckon/ground_truth/truth.h"
-#include "reckon/sim/control_state.h"
 #include "reckon/sim/environment.h"
 #include "reckon/sim/motion_window.h"
 #include "reckon/sim/robot_config.h"
@@ -37,10 +36,6 @@ class World {
 
   /// Moves `motion` to the next instant; the first call gives t = 0. Throws WorldFailure.
   void Advance();
-
-  /// What the controller of a robot on legs is to believe of it, from its next call on; until then,
-  /// and of other robots always, it knows the truth.
-  void Believe(const ControlState& state);
 
   const MotionWindow& motion() const;
 

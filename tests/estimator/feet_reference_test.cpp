@@ -136,10 +136,10 @@ TYPED_TEST(FeetReference, ARollingFootIsTheDenseOne) {
   RollingFeet rolling;
   std::vector<testing_estimator::Roll> rolls;
   for (const int foot : {0, 2, 3}) {
-    rolling.u[foot] = this->draws_.Vector(0.3);
-    rolling.lever[foot] = this->draws_.Vector(0.02);
+    rolling.u.col(foot) = this->draws_.Vector(0.3);
+    rolling.lever.col(foot) = this->draws_.Vector(0.02);
     rolls.push_back(
-        {rolling.u[foot].template cast<Real>(), rolling.lever[foot].template cast<Real>()});
+        {rolling.u.col(foot).template cast<Real>(), rolling.lever.col(foot).template cast<Real>()});
   }
   const Eigen::Vector3d gyro = this->draws_.Vector(1.0), accel = this->draws_.Vector(5.0);
   const ProcessNoise noise{1e-4, 1e-3, 1e-6, 1e-6};
