@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "reckon/sim/foot_contacts.h"
-#include "reckon/sim/legged_body.h"
 #include "reckon/sim/scenery.h"
 #include "reckon/sim/walking_ground.h"
 
@@ -90,8 +89,8 @@ void AddFoot(const std::string& name, double radius, const TerrainConfig& terrai
 }  // namespace
 
 ModelPtr BuildLeggedModel(const RobotConfig& robot, const WorldConfig& config,
-                          const models::UrdfRobot& urdf, const Terrain& terrain,
-                          std::uint64_t seed) {
+                          const models::UrdfRobot& urdf, const LeggedBody& body,
+                          const Terrain& terrain, std::uint64_t seed) {
   const auto& drive = std::get<LeggedConfig>(robot.drive);
   RobotSpec robot_spec(robot, config);
   mjSpec* spec = robot_spec.get();
@@ -101,9 +100,8 @@ ModelPtr BuildLeggedModel(const RobotConfig& robot, const WorldConfig& config,
   if (!(radius > 0.0)) {
     throw std::invalid_argument("actual: foot_radius_offset_m leaves no foot");
   }
-  const auto joints = LegJoints(urdf, drive.feet);
-  for (std::size_t i = 0; i < joints.size(); ++i) {
-    SetJoint(drive, joints[i], i % LeggedBody::kLegJoints, spec);
+  for (std::size_t i = 0; i < body.joints().size(); ++i) {
+    SetJoint(drive, body.joints()[i], i % LeggedBody::kLegJoints, spec);
   }
   for (const std::string& foot : drive.feet) {
     LengthenLeg(urdf, foot, config.actual.leg_offset_m, spec);

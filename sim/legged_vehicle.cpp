@@ -56,15 +56,20 @@ models::Pose StartPose(const LeggedBody& body, const Terrain& terrain) {
 
 LeggedVehicle::LeggedVehicle(const RobotConfig& robot, const WorldConfig& config,
                              std::uint64_t seed)
-    : LeggedVehicle(robot, config, seed, Terrain(config.terrain, config.patches, seed),
-                    models::UrdfRobot::FromFile(robot.urdf_path)) {}
+    : LeggedVehicle(robot, config, seed, models::UrdfRobot::FromFile(robot.urdf_path)) {}
 
 LeggedVehicle::LeggedVehicle(const RobotConfig& robot, const WorldConfig& config,
-                             std::uint64_t seed, Terrain terrain, const models::UrdfRobot& urdf)
-    : Vehicle(BuildLeggedModel(robot, config, urdf, terrain, seed)),
+                             std::uint64_t seed, const models::UrdfRobot& urdf)
+    : LeggedVehicle(robot, config, seed, Terrain(config.terrain, config.patches, seed), urdf,
+                    LeggedBody(urdf, DriveOf(robot))) {}
+
+LeggedVehicle::LeggedVehicle(const RobotConfig& robot, const WorldConfig& config,
+                             std::uint64_t seed, Terrain terrain, const models::UrdfRobot& urdf,
+                             LeggedBody body)
+    : Vehicle(BuildLeggedModel(robot, config, urdf, body, terrain, seed)),
       config_(config),
       terrain_(std::move(terrain)),
-      body_(urdf, DriveOf(robot)),
+      body_(std::move(body)),
       controller_(body_, DriveOf(robot), config.control, config.gravity_m_s2),
       driver_(config.motion),
       base_(*model_, mj_name2id(model_.get(), mjOBJ_BODY, robot.base_link.c_str())),

@@ -30,7 +30,9 @@ class LeggedVehicle : public Vehicle {
 
  private:
   LeggedVehicle(const RobotConfig& robot, const WorldConfig& config, std::uint64_t seed,
-                Terrain terrain, const models::UrdfRobot& urdf);
+                Terrain terrain, const models::UrdfRobot& urdf, LeggedBody body);
+  LeggedVehicle(const RobotConfig& robot, const WorldConfig& config, std::uint64_t seed,
+                const models::UrdfRobot& urdf);
 
   ControlState TrueState(const VehicleState& now) const;
   void Control(models::TimeNs t_ns, const VehicleState& now);

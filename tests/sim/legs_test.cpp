@@ -49,7 +49,7 @@ class Legs : public testing::TestWithParam<RobotConfig> {
   const LeggedBody body_{urdf_, drive_};
   const WorldConfig config_;
   const Terrain terrain_{config_.terrain, {}, 1};
-  const ModelPtr model_ = BuildLeggedModel(GetParam(), config_, urdf_, terrain_, 1);
+  const ModelPtr model_ = BuildLeggedModel(GetParam(), config_, urdf_, body_, terrain_, 1);
   const DataPtr data_ = MakeData(*model_);
   const FreeJoint base_{*model_, mj_name2id(model_.get(), mjOBJ_BODY, "trunk")};
   models::EncoderVector q_, dq_;
