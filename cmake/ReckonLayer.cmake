@@ -1,6 +1,8 @@
 # Layers. Headers are included as "reckon/<layer>/<file>.h"; each layer has an include root of its
 # own, a folder that holds nothing but a link to the layer, so that a layer sees only what its
-# target links to.
+# target links to. Builds that share RECKON_LINKS compile the same command lines, and so share objects.
+
+set(RECKON_LINKS "${PROJECT_BINARY_DIR}/include" CACHE PATH "The folder of these include roots")
 
 function(_reckon_link from to)
   get_filename_component(parent "${to}" DIRECTORY)
@@ -13,7 +15,7 @@ endfunction()
 # INSTALL: other projects can have it, as reckon::<name> (see ReckonInstall.cmake).
 function(reckon_layer name)
   cmake_parse_arguments(ARG "INSTALL" "" "SEES;USES" ${ARGN})
-  set(root "${PROJECT_BINARY_DIR}/include/${name}")
+  set(root "${RECKON_LINKS}/${name}")
   _reckon_link("${PROJECT_SOURCE_DIR}/${name}" "${root}/reckon/${name}")
   file(GLOB sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/${name}/*.cpp")
   list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
@@ -29,7 +31,7 @@ endfunction()
 # layer that may see those types and no more.
 function(reckon_headers name)
   cmake_parse_arguments(ARG "" "FROM" "FILES;SEES" ${ARGN})
-  set(root "${PROJECT_BINARY_DIR}/include/${name}")
+  set(root "${RECKON_LINKS}/${name}")
   foreach(file IN LISTS ARG_FILES)
     _reckon_link("${PROJECT_SOURCE_DIR}/${ARG_FROM}/${file}" "${root}/reckon/${ARG_FROM}/${file}")
   endforeach()

@@ -8,11 +8,13 @@ FootReading ReadFoot(const models::LegKinematics& leg, const models::EncoderVect
   const models::FootPosition foot = leg.Evaluate(angles);
   FootReading reading;
   reading.h = foot.p_BF - p_BI;
-  for (Eigen::Index k = 0; k < foot.J.cols(); ++k) {
-    const Eigen::Vector3d column = noise.joint_angle_rad * foot.J.col(k);
-    reading.N += column * column.transpose();
+  reading.JJ = foot.J * foot.J.transpose();
+  reading.N = noise.joint_angle_rad * noise.joint_angle_rad * reading.JJ;
+  if (rates.size() > 0) {
+    const models::LegVector own = leg.Pick(rates);
+    reading.w_rad_s = foot.A * own;
+    reading.dh_m_s = foot.J * own;
   }
-  if (rates.size() > 0) reading.w_rad_s = foot.A * leg.Pick(rates);
   reading.N.diagonal().array() += noise.foot_position_m * noise.foot_position_m;
   return reading;
 }
@@ -26,6 +28,16 @@ FootReading ReadFoot(const models::LegKinematics& leg, const models::EncoderVect
   m.Plus(foot);
   m.Minus(kPositionSlot);
   return m;
+}
+
+Linearisation<3> LinearisedLegOdometry(const FootReading& y, double radius_m, const Noise& noise,
+                                       const TurnRate& turn, const NavigationState& x) {
+  const Eigen::Vector3d lever = radius_m * x.R.row(2).transpose();
+  const double rate = noise.joint_rate_rad_per_s, velocity = noise.leg_velocity_m_per_s;
+  models::BodyVelocitySample sample;
+  sample.v_WS_S = y.w_rad_s.cross(lever) - y.dh_m_s;
+  sample.covariance = rate * rate * y.JJ + velocity * velocity * Eigen::Matrix3d::Identity();
+  return LinearisedVelocity(sample, {Eigen::Matrix3d::Identity(), y.h - lever}, turn, x);
 }
 
 }  // namespace reckon::estimator

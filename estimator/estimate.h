@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "reckon/models/contact_sample.h"
 #include "reckon/models/pose.h"
 #include "reckon/models/time.h"
 
@@ -36,6 +37,7 @@ struct Estimate {
   bool has_covariance = false;  ///< plain odometry has none; then `covariance` is zero
   bool has_biases = false;      ///< plain odometry estimates none
   ErrorCovariance covariance = ErrorCovariance::Zero();
+  models::FootVector contact;  ///< the probability that each foot stands; empty: it does not say
 };
 
 }  // namespace reckon::estimator

@@ -71,7 +71,8 @@ FilterBeliefs::FilterBeliefs(const Setup& told)
   if (suite.wheels) wheels = suite.Find(suite.wheels->encoders);
   if (suite.legs) {
     leg_encoders = suite.Find(suite.legs->encoders);
-    contacts = suite.Find(suite.legs->contacts);
+    const bool told_which = !told.contacts.sensor.empty();
+    contacts = suite.Find(told_which ? told.contacts.sensor : suite.legs->contacts);
     if (told.feet == FootKind::kRolling) rolling_radius_m = suite.legs->foot_radius_m;
   }
   if (!told.gyro_filter.source.empty()) gyro_source = suite.Find(told.gyro_filter.source);
@@ -80,7 +81,22 @@ FilterBeliefs::FilterBeliefs(const Setup& told)
                                 "` is the IMU that it refines");
   }
   gyro_source_is_imu = gyro_source && gyro_source != wheels;
+  slip_limit = ChiSquareQuantile(3, told.slip.probability);
   X_IS = FramesInI(suite, imu, wheels);
+}
+
+Refusal FilterBeliefs::WhyNotOfFeet(const models::FootVector& feet) const {
+  const auto legs = static_cast<Eigen::Index>(setup.suite.legs->legs.size());
+  return feet.size() == legs ? Refusal::kNone : Refusal::kInvalid;
+}
+
+bool FilterBeliefs::HasAllJoints(const models::EncoderVector& joints) const {
+  for (const models::LegKinematics& leg : setup.suite.legs->legs) {
+    for (const int entry : leg.entries()) {
+      if (entry >= joints.size()) return false;
+    }
+  }
+  return true;
 }
 
 Refusal FilterBeliefs::WhyUseless(const models::Measurement& m) const {
@@ -90,15 +106,16 @@ Refusal FilterBeliefs::WhyUseless(const models::Measurement& m) const {
       return MeanRates(*encoders, *setup.suite.wheels) ? Refusal::kNone : Refusal::kInvalid;
     }
     if (sensor != leg_encoders) return Refusal::kUnused;
-    for (const models::LegKinematics& leg : setup.suite.legs->legs) {
-      for (const int entry : leg.entries()) {
-        if (entry >= encoders->angle_rad.size()) return Refusal::kInvalid;
-      }
-    }
+    return HasAllJoints(encoders->angle_rad) ? Refusal::kNone : Refusal::kInvalid;
   } else if (const auto* contact = std::get_if<models::ContactSample>(&m.sample)) {
     if (sensor != contacts) return Refusal::kUnused;
-    const auto legs = static_cast<Eigen::Index>(setup.suite.legs->legs.size());
-    return contact->probability.size() == legs ? Refusal::kNone : Refusal::kInvalid;
+    return WhyNotOfFeet(contact->probability);
+  } else if (const auto* forces = std::get_if<models::FootForceSample>(&m.sample)) {
+    if (sensor != contacts) return Refusal::kUnused;
+    return WhyNotOfFeet(forces->force_n);
+  } else if (const auto* torques = std::get_if<models::TorqueSample>(&m.sample)) {
+    if (sensor != contacts) return Refusal::kUnused;
+    return HasAllJoints(torques->torque_n_m) ? Refusal::kNone : Refusal::kInvalid;
   } else if (std::holds_alternative<models::ImuSample>(m.sample)) {
     return sensor == gyro_source ? Refusal::kNone : Refusal::kUnused;
   } else if (std::holds_alternative<models::DepthSample>(m.sample)) {
@@ -125,7 +142,7 @@ double FilterBeliefs::SamplesOfOneTilt(models::SensorId sensor) const {
 }
 
 int FilterBeliefs::MostCorrections(const models::Measurement& m) const {
-  if (std::holds_alternative<models::ContactSample>(m.sample)) return 0;
+  if (m.sensor == contacts) return 0;
   if (std::holds_alternative<models::PoseSample>(m.sample)) return 2;  // position, yaw
   const int floor = setup.floor.use ? 1 : 0;
   if (m.sensor == leg_encoders) {

@@ -46,7 +46,12 @@ struct FilterBeliefs {
 
   std::optional<models::SensorId> wheels, leg_encoders, contacts, gyro_source;
   bool gyro_source_is_imu = false;
+  double slip_limit = 0.0;        ///< of a foot's NIS, where that tells slip
   double rolling_radius_m = 0.0;  ///< of feet that are taken for round; 0: they do not roll
+
+ private:
+  Refusal WhyNotOfFeet(const models::FootVector& feet) const;
+  bool HasAllJoints(const models::EncoderVector& joints) const;
 };
 
 }  // namespace reckon::estimator

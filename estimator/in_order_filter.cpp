@@ -3,16 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reckon/estimator/correction_judge.h"
 #include "reckon/estimator/depth_model.h"
-#include "reckon/estimator/height_model.h"
-#include "reckon/estimator/iterated_correction.h"
-#include "reckon/estimator/kalman.h"
-#include "reckon/estimator/left_invariant_ekf.h"
-#include "reckon/estimator/multiplicative_ekf.h"
+#include "reckon/estimator/in_order_filter_inl.h"
 #include "reckon/estimator/pose_model.h"
 #include "reckon/estimator/reanchoring.h"
-#include "reckon/estimator/right_invariant_ekf.h"
 #include "reckon/estimator/standstill_model.h"
 #include "reckon/estimator/wheel_model.h"
 #include "reckon/estimator/yaw_rate_model.h"
@@ -60,6 +54,7 @@ void InOrderFilter<Core>::Start(TimeNs t_ns, const NavigationState& x, const Err
   rest_.Restart();
   mistrust_.Start(t_ns);
   feet_.Start();
+  slips_.fill(false);
 }
 
 /// With a second IMU the filter's bias is the mean of two: of the other nothing is known but that
@@ -93,7 +88,6 @@ ProcessNoise InOrderFilter<Core>::NoiseAt(TimeNs t_ns) const {
 
 template <class Core>
 void InOrderFilter<Core>::AdvanceTo(TimeNs t_ns) {
-  const double slip = beliefs_->setup.noise.foot_slip_m_per_s_sqrt_hz;
   while (t_ns_ < t_ns) {
     TimeNs until_ns = std::min(t_ns_ + kLongestStep, t_ns);
     if (t_ns_ < held_.covered_from_ns()) until_ns = std::min(until_ns, held_.covered_from_ns());
@@ -107,9 +101,7 @@ void InOrderFilter<Core>::AdvanceTo(TimeNs t_ns) {
     } else {
       core_.Propagate(u, beliefs_->gravity, noise);
     }
-    for (const Slot slot : core_.P().active()) {
-      if (IsFoot(slot)) core_.P()(slot, slot) += LaneMatrix::Diagonal(slip * slip * dt);
-    }
+    AddFootNoise(dt);
     t_ns_ = until_ns;
   }
 }
@@ -198,57 +190,6 @@ void InOrderFilter<Core>::Use(const Measurement& m, const models::EncoderSample&
 }
 
 template <class Core>
-void InOrderFilter<Core>::UseLegs(const Measurement& m, const models::EncoderSample& y,
-                                  Report* report) {
-  const auto& legs = beliefs_->setup.suite.legs->legs;
-  const StandingFeet::Readings readings = feet_.Read(y, *beliefs_);
-  CorrectFeet(m, readings, report);
-  for (std::size_t i = 0; i < legs.size(); ++i) {
-    const Slot foot = FootSlot(static_cast<int>(i));
-    if (!feet_.Stands(i) || core_.P().IsActive(foot)) continue;
-    AddFoot(core_, readings[i], foot);
-    if (!beliefs_->setup.floor.use) continue;
-    UseFloor(
-        m, foot, [foot](const NavigationState& x) { return x.At(foot); }, report);
-  }
-}
-
-/// Linearised once and taken in one after the other: equal to all feet in one correction.
-template <class Core>
-void InOrderFilter<Core>::CorrectFeet(const Measurement& m, const StandingFeet::Readings& readings,
-                                      Report* report) {
-  if (core_.P().slots().feet().empty()) return;
-  SlotVector increment;
-  increment.fill(Lane::Zero());
-  for (std::size_t i = 0; i < readings.size(); ++i) {
-    const Slot foot = FootSlot(static_cast<int>(i));
-    if (!feet_.Stands(i) || !core_.P().IsActive(foot)) continue;
-    const auto linearised = LinearisedContact(readings[i], foot, core_.x());
-    auto own = Core::Convert(linearised, core_.x());
-    own.MoveBy(increment);
-    IfItFits(
-        m.valid_ns, m.sensor, own, linearised.slots(),
-        [&](const KalmanCorrection<3>& kalman, Decision /*decision*/) {
-          kalman.AddGainTo(increment);
-          kalman.UpdateCovariance(core_.P());
-        },
-        report);
-  }
-  core_.Retract(increment);
-}
-
-template <class Core>
-template <class Point>
-void InOrderFilter<Core>::UseFloor(const Measurement& m, Slot slot, const Point& point,
-                                   Report* report) {
-  const Setup& setup = beliefs_->setup;
-  const auto model = [&](const NavigationState& x) {
-    return LinearisedHeight(setup.floor.height_m, setup.noise.floor_height_m, slot, point(x));
-  };
-  Apply(m.valid_ns, m.sensor, model, report);
-}
-
-template <class Core>
 void InOrderFilter<Core>::Use(const Measurement& m, const models::DepthSample& y, Report* report) {
   const auto model = [&](const NavigationState& x) {
     auto height = LinearisedDepth(y, beliefs_->X_IS[m.sensor].p, beliefs_->setup.noise.depth_m, x);
@@ -271,17 +212,6 @@ void InOrderFilter<Core>::Use(const Measurement& m, const models::PoseSample& y,
       m.valid_ns, m.sensor,
       [&](const NavigationState& x) { return LinearisedYaw(y, X_IS, scale, x).value_or(*yaw); },
       report);
-}
-
-template <class Core>
-void InOrderFilter<Core>::Use(const Measurement& /*m*/, const models::ContactSample& y,
-                              Report* /*report*/) {
-  feet_.Hear(y);
-  for (Eigen::Index i = 0; i < y.probability.size(); ++i) {
-    const Slot foot = FootSlot(static_cast<int>(i));
-    if (!feet_.Stands(static_cast<std::size_t>(i)) && core_.P().IsActive(foot))
-      core_.P().RemoveFoot(foot);
-  }
 }
 
 template <class Core>
@@ -327,46 +257,6 @@ void InOrderFilter<Core>::Blame(Correction& correction) {
 }
 
 template <class Core>
-template <int kRows, class Taken>
-std::optional<Correction> InOrderFilter<Core>::IfItFits(TimeNs t_ns, models::SensorId sensor,
-                                                        const Linearisation<kRows>& own,
-                                                        SlotSet seen, const Taken& use,
-                                                        Report* report) {
-  KalmanCorrection<kRows> kalman(core_.P(), own);
-  Correction correction = Described(kalman, own, core_.x().R);
-  correction.t_ns = t_ns;
-  correction.sensor = sensor;
-  Judge(beliefs_->gate, core_, seen, correction);
-  Blame(correction);
-  if (report != nullptr) report->Add(correction);
-  if (!IsApplied(correction.decision)) return std::nullopt;
-  kalman.AddLasting();
-  if (correction.decision == Decision::kInflated) kalman.Inflate(beliefs_->gate.Limit(kRows));
-  use(kalman, correction.decision);
-  return correction;
-}
-
-template <class Core>
-template <class Model>
-std::optional<Correction> InOrderFilter<Core>::Apply(TimeNs t_ns, models::SensorId sensor,
-                                                     const Model& model, Report* report) {
-  const auto linearised = model(core_.x());
-  constexpr int kRows = std::decay_t<decltype(linearised)>::Vector::RowsAtCompileTime;
-  const auto use = [&](const KalmanCorrection<kRows>& kalman, Decision decision) {
-    const int iterations = beliefs_->setup.iterations;
-    if constexpr (Core::kForm == ErrorForm::kRightInvariant) {
-      if (iterations > 1 && decision != Decision::kInflated) {
-        return CorrectIterated<kRows>(core_, model, iterations);
-      }
-    }
-    core_.Retract(kalman.Gain());
-    kalman.UpdateCovariance(core_.P());
-  };
-  return IfItFits(t_ns, sensor, Core::Convert(linearised, core_.x()), linearised.slots(), use,
-                  report);
-}
-
-template <class Core>
 void InOrderFilter<Core>::StartAgain(TimeNs t_ns, const Vector3d& up_I) {
   NavigationState x = core_.x();
   x.gyro_bias = BiasOfFirst();
@@ -390,6 +280,9 @@ Estimate InOrderFilter<Core>::Belief() const {
   estimate.has_covariance = true;
   estimate.has_biases = true;
   estimate.covariance = core_.BodyCovariance(r_IB, turn.w_rad_s, turn.variance);
+  if (beliefs_->setup.suite.legs) {
+    estimate.contact = feet_.Probabilities(beliefs_->setup.suite.legs->legs.size());
+  }
   return estimate;
 }
 

@@ -71,10 +71,18 @@ class InOrderFilter {
   void Use(const models::Measurement& m, const models::DepthSample& y, Report* report);
   void Use(const models::Measurement& m, const models::PoseSample& y, Report* report);
   void Use(const models::Measurement& m, const models::ContactSample& y, Report* report);
+  void Use(const models::Measurement& m, const models::TorqueSample& y, Report* report);
+  void Use(const models::Measurement& m, const models::FootForceSample& y, Report* report);
   void Use(const models::Measurement& /*m*/, const models::ImuSample& /*y*/, Report* /*report*/) {}
   void UseLegs(const models::Measurement& m, const models::EncoderSample& y, Report* report);
   void CorrectFeet(const models::Measurement& m, const StandingFeet::Readings& readings,
                    Report* report);
+  void UseAsVelocity(const models::Measurement& m, const StandingFeet::Readings& readings,
+                     Report* report);
+  void WatchSlip(const StandingFeet::Readings& readings);
+  void Excuse(const models::Measurement& m, Slot foot, const Linearisation<3>& own, Report* report);
+  void LiftFeet();
+  void AddFootNoise(double dt);
   void RefineByImu(const models::Measurement& m, const models::ImuSample& y, Report* report);
   void StartMeanBias();
   template <class Point>
@@ -111,6 +119,8 @@ class InOrderFilter {
   GyroFilterStage stage_;  ///< idle without a second source of the rate
   RestAverage rest_;
   StandingFeet feet_;
+  std::array<bool, kMaxFeet> slips_{};
+  RollingFeet::Columns slip_;  ///< the velocity that a foot slips with, in this form's axes
   Mistrust mistrust_;
 };
 

@@ -11,6 +11,7 @@ constexpr double kLargestForce = 1e5;     ///< m/s²
 constexpr double kLargestVelocity = 1e5;  ///< m/s
 constexpr double kLargestDistance = 1e7;  ///< m
 constexpr double kLargestSigma = 1e6;     ///< m or rad
+constexpr double kLargestLoad = 1e7;      ///< N m or N
 constexpr models::TimeNs kLongestInterval = models::kNsPerSecond;
 
 template <class Vector>
@@ -75,6 +76,16 @@ Refusal Check(const models::ContactSample& sample) {
   const bool good = sample.probability.size() > 0 && sample.probability.minCoeff() >= 0.0 &&
                     sample.probability.maxCoeff() <= 1.0;
   return good ? Refusal::kNone : Refusal::kInvalid;
+}
+
+Refusal Check(const models::TorqueSample& sample) {
+  if (sample.torque_n_m.size() == 0) return Refusal::kInvalid;
+  return Bounded(sample.torque_n_m, kLargestLoad);
+}
+
+Refusal Check(const models::FootForceSample& sample) {
+  if (sample.force_n.size() == 0) return Refusal::kInvalid;
+  return Bounded(sample.force_n, kLargestLoad);
 }
 
 }  // namespace

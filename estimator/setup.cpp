@@ -5,7 +5,7 @@
 namespace reckon::estimator {
 namespace {
 
-constexpr std::array<NoiseField, 18> kFields{{
+constexpr std::array<NoiseField, 20> kFields{{
     {"gyro_noise_density_rad_per_s_sqrt_hz", &Noise::gyro_noise_density_rad_per_s_sqrt_hz},
     {"accel_noise_density_m_per_s2_sqrt_hz", &Noise::accel_noise_density_m_per_s2_sqrt_hz},
     {"gyro_bias_walk_rad_per_s2_sqrt_hz", &Noise::gyro_bias_walk_rad_per_s2_sqrt_hz},
@@ -19,6 +19,8 @@ constexpr std::array<NoiseField, 18> kFields{{
     {"joint_angle_rad", &Noise::joint_angle_rad},
     {"foot_position_m", &Noise::foot_position_m},
     {"foot_slip_m_per_s_sqrt_hz", &Noise::foot_slip_m_per_s_sqrt_hz},
+    {"joint_rate_rad_per_s", &Noise::joint_rate_rad_per_s},
+    {"leg_velocity_m_per_s", &Noise::leg_velocity_m_per_s},
     {"wheel_yaw_rate_rad_per_s", &Noise::wheel_yaw_rate_rad_per_s},
     {"standstill_m_per_s", &Noise::standstill_m_per_s},
     {"standstill_rad_per_s", &Noise::standstill_rad_per_s},

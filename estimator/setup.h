@@ -26,6 +26,8 @@ struct Noise {
   double joint_angle_rad = 0.0;         ///< white, per sample and joint of a leg
   double foot_position_m = 0.0;  ///< of what a leg's kinematics leave out, per sample and axis
   double foot_slip_m_per_s_sqrt_hz = 0.0;  ///< white velocity of a standing foot
+  double joint_rate_rad_per_s = 0.0;       ///< white, per sample and joint: legs used as a velocity
+  double leg_velocity_m_per_s = 0.0;       ///< of a standing foot, likewise, each axis
   double wheel_yaw_rate_rad_per_s = 0.0;   ///< of the wheels' yaw rate, per encoder sample
   double standstill_m_per_s = 0.0;         ///< what may be left of the velocity at standstill
   double standstill_rad_per_s = 0.0;       ///< and of the angular rate
@@ -94,6 +96,50 @@ enum class FootKind : std::uint8_t {
   kStatic,   ///< a point that stands [Hartley20]
 };
 
+/// How a filter uses a foot that stands.
+enum class LegCorrection : std::uint8_t {
+  kPosition,  ///< its place is part of the state [Hartley20]
+  kVelocity,  ///< leg odometry: the body moves as the leg moves over it
+};
+
+/// What a filter makes of the torques of a leg's motors, see `LegLoad`.
+enum class ForceModel : std::uint8_t { kStatic, kInertia, kMomentum };
+
+/// How a filter tells which feet stand: by a sensor that says so, or by a force that it compares
+/// with thresholds. The latter's defaults are those of [Youm24].
+struct ContactDetection {
+  std::string sensor;  ///< of contacts, torques or foot forces; empty: the one of the legs
+  ForceModel force = ForceModel::kMomentum;  ///< of torques
+  double observer_hz = 30.0;                 ///< the momentum observer's pole
+  double cutoff_hz = 10.0;    ///< of one pole that the force goes through; 0: as it is
+  double threshold_n = 40.0;  ///< a foot stands from this force on
+  double hysteresis_n = 0.0;  ///< and until the force has fallen this far below it
+  /// Of the probability 1 / (1 + e^(−(f − threshold) / this)); 0: a switch.
+  double logistic_n = 0.0;
+};
+
+/// How a filter tells that a standing foot slips.
+enum class SlipRule : std::uint8_t {
+  kOff,
+  kSpeed,  ///< its speed by the state and the encoders is above a limit [Kim21]
+  kNis,    ///< the NIS of its leg's odometry is beyond a χ² quantile
+};
+
+/// And what it does about it.
+enum class SlipAction : std::uint8_t {
+  kInflate,  ///< widens the foot's own belief
+  kDrop,     ///< forgets where the foot stood: it stands anew where the leg says
+};
+
+struct SlipRejection {
+  SlipRule rule = SlipRule::kOff;
+  double speed_m_s = 0.4;     ///< kSpeed
+  double factor = 10.0;       ///< kSpeed: on the variance of the foot's velocity while it slips
+  double probability = 0.99;  ///< kNis
+  SlipAction action = SlipAction::kInflate;  ///< kNis
+  double correlation_s = 0.02;               ///< kNis, kInflate: how long a slip keeps its velocity
+};
+
 /// The stage that refines the angular rate before it moves the filter.
 struct GyroFilter {
   std::string source;  ///< the sensor beside the IMU: another IMU, or the wheels; empty: no stage
@@ -109,6 +155,9 @@ struct Setup {
   Standstill standstill;
   FlatFloor floor;
   FootKind feet = FootKind::kRolling;
+  LegCorrection leg_correction = LegCorrection::kPosition;
+  ContactDetection contacts;
+  SlipRejection slip;
   GyroFilter gyro_filter;
   Noise noise;
   Gate gate;

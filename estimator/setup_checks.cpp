@@ -24,6 +24,25 @@ bool Has(const models::Suite& suite, const std::string& sensor, models::SensorKi
   return id && suite.sensors[*id].kind == kind;
 }
 
+bool NotNegative(double x) { return std::isfinite(x) && x >= 0.0; }
+
+void CheckContacts(const Setup& setup) {
+  using Kind = models::SensorKind;
+  const models::Suite& suite = setup.suite;
+  const ContactDetection& told = setup.contacts;
+  const std::string& name = told.sensor.empty() ? suite.legs->contacts : told.sensor;
+  const bool torques = Has(suite, name, Kind::kTorques);
+  Require(torques || Has(suite, name, Kind::kFootForces) || Has(suite, name, Kind::kContacts),
+          "the legs' contacts `" + name + "` are no contact, torque or foot force sensor");
+  Require(!torques || suite.legs->dynamics.size() == suite.legs->legs.size(),
+          "contacts from torques need the legs' masses");
+  Require(std::isfinite(told.observer_hz) && told.observer_hz > 0.0,
+          "the contacts' observer_hz must be positive");
+  Require(NotNegative(told.cutoff_hz) && NotNegative(told.logistic_n) &&
+              NotNegative(told.hysteresis_n) && NotNegative(told.threshold_n),
+          "the contacts' numbers must not be negative");
+}
+
 void CheckLegs(const Setup& setup) {
   const models::Suite& suite = setup.suite;
   const models::LegSet& legs = *suite.legs;
@@ -31,10 +50,23 @@ void CheckLegs(const Setup& setup) {
           "a robot has 1 to " + std::to_string(models::kMaxFeet) + " legs");
   Require(Has(suite, legs.encoders, models::SensorKind::kEncoders),
           "the legs' encoders `" + legs.encoders + "` are no encoders of the suite");
-  Require(Has(suite, legs.contacts, models::SensorKind::kContacts),
-          "the legs' contacts `" + legs.contacts + "` are no contact sensor of the suite");
-  Require(setup.noise.joint_angle_rad > 0.0 || setup.noise.foot_position_m > 0.0,
+  CheckContacts(setup);
+  const bool velocity = setup.leg_correction == LegCorrection::kVelocity;
+  Require(velocity || setup.noise.joint_angle_rad > 0.0 || setup.noise.foot_position_m > 0.0,
           "legs need a positive joint_angle_rad or foot_position_m");
+  Require(
+      (!velocity && setup.slip.rule != SlipRule::kNis) || setup.noise.leg_velocity_m_per_s > 0.0,
+      "legs used as a velocity, and the slip rule nis, need a positive leg_velocity_m_per_s");
+  const SlipRejection& slip = setup.slip;
+  Require(slip.rule == SlipRule::kOff || !velocity, "a slip rule is for feet in the state");
+  Require(std::isfinite(slip.speed_m_s) && slip.speed_m_s > 0.0,
+          "the slip rule's speed_m_s must be positive");
+  Require(std::isfinite(slip.factor) && slip.factor >= 1.0,
+          "the slip rule's factor must be at least 1");
+  Require(std::isfinite(slip.correlation_s) && slip.correlation_s > 0.0,
+          "the slip rule's correlation_s must be positive");
+  Require(slip.probability > 0.5 && slip.probability < 1.0,
+          "the slip rule's probability must lie between 0.5 and 1");
 }
 
 void CheckGyroSource(const Setup& setup) {

@@ -37,12 +37,14 @@ class Metrics {
   std::vector<Metric> list_;
 };
 
-/// All scores of the whole `track`. `sensors` names the sensors by id.
+/// All scores of the whole `track`. `sensors` names the sensors by id, `feet` the feet, if there
+/// are any.
 Metrics Score(const Track& track, const std::vector<std::string>& sensors,
-              const ScoreOptions& options);
+              const ScoreOptions& options, const std::vector<std::string>& feet = {});
 
-/// All metrics that Score gives for such sensors and options: names, units and meanings, no values.
-Metrics MetricCatalogue(const std::vector<std::string>& sensors, const ScoreOptions& options);
+/// All metrics that Score gives for such a robot and options: names, units and meanings, no values.
+Metrics MetricCatalogue(const std::vector<std::string>& sensors, const ScoreOptions& options,
+                        const std::vector<std::string>& feet = {});
 
 /// {"valid": …, "<name>": value or null, …}; the same metrics give the same bytes.
 nlohmann::ordered_json ToJson(const Metrics& metrics);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <limits>
+
 #include "reckon/ground_truth/recording_columns.h"
 #include "reckon/ground_truth/run_recorder.h"
 
@@ -63,7 +65,22 @@ void Put(const models::PoseSample& sample, RowEncoder& row) {
 }
 
 void Put(const models::ContactSample& sample, RowEncoder& row) {
-  for (int i = 0; i < sample.probability.size(); ++i) row.Put(sample.probability[i]);
+  for (const double probability : sample.probability) row.Put(probability);
+}
+
+void Put(const models::TorqueSample& sample, RowEncoder& row) {
+  for (const double torque : sample.torque_n_m) row.Put(torque);
+}
+
+void Put(const models::FootForceSample& sample, RowEncoder& row) {
+  for (const double force : sample.force_n) row.Put(force);
+}
+
+template <class Vector>
+Vector GetChannels(RowDecoder& row, int channels) {
+  Vector values(channels);
+  for (double& value : values) value = row.Get<double>();
+  return values;
 }
 
 models::Sample GetImu(RowDecoder& row) {
@@ -78,10 +95,8 @@ models::Sample GetImu(RowDecoder& row) {
 
 models::Sample GetEncoders(RowDecoder& row, int channels) {
   models::EncoderSample sample;
-  sample.angle_rad.resize(channels);
-  sample.rate_rad_s.resize(channels);
-  for (double& angle : sample.angle_rad) angle = row.Get<double>();
-  for (double& rate : sample.rate_rad_s) rate = row.Get<double>();
+  sample.angle_rad = GetChannels<models::EncoderVector>(row, channels);
+  sample.rate_rad_s = GetChannels<models::EncoderVector>(row, channels);
   sample.interval_ns = row.Get<models::TimeNs>();
   return sample;
 }
@@ -106,13 +121,6 @@ models::Sample GetPoseSample(RowDecoder& row) {
   sample.position_sigma_m = row.Vector();
   sample.orientation_sigma_rad = row.Vector();
   sample.has_orientation = GetWithin<std::uint8_t>(row, "has_orientation", 0, 2) != 0;
-  return sample;
-}
-
-models::Sample GetContacts(RowDecoder& row, int feet) {
-  models::ContactSample sample;
-  sample.probability.resize(feet);
-  for (double& probability : sample.probability) probability = row.Get<double>();
   return sample;
 }
 
@@ -173,13 +181,18 @@ void Encode(const models::Measurement& measurement, std::uint64_t order, RowEnco
   std::visit([&row](const auto& sample) { Put(sample, row); }, measurement.sample);
 }
 
-void Encode(const estimator::Estimate& estimate, std::int64_t covariance_row, RowEncoder& row) {
+void Encode(const estimator::Estimate& estimate, std::int64_t covariance_row, int feet,
+            RowEncoder& row) {
   PutPose(estimate, row);
   PutBiases(estimate, row);
   row.Put(covariance_row);
   row.Put(static_cast<std::uint8_t>(estimate.form));
   row.Put(estimate.has_covariance);
   row.Put(estimate.has_biases);
+  const bool says = estimate.contact.size() == feet;
+  for (int i = 0; i < feet; ++i) {
+    row.Put(says ? estimate.contact[i] : std::numeric_limits<double>::quiet_NaN());
+  }
 }
 
 void Encode(const estimator::Correction& correction, std::uint64_t order, RowEncoder& row) {
@@ -260,13 +273,19 @@ models::Measurement DecodeMeasurement(RowDecoder& row, models::SensorId sensor,
       measurement.sample = GetPoseSample(row);
       break;
     case models::SensorKind::kContacts:
-      measurement.sample = GetContacts(row, channels);
+      measurement.sample = models::ContactSample{GetChannels<models::FootVector>(row, channels)};
+      break;
+    case models::SensorKind::kTorques:
+      measurement.sample = models::TorqueSample{GetChannels<models::EncoderVector>(row, channels)};
+      break;
+    case models::SensorKind::kFootForces:
+      measurement.sample = models::FootForceSample{GetChannels<models::FootVector>(row, channels)};
       break;
   }
   return measurement;
 }
 
-estimator::Estimate DecodeEstimate(RowDecoder& row, std::int64_t* covariance_row) {
+estimator::Estimate DecodeEstimate(RowDecoder& row, int feet, std::int64_t* covariance_row) {
   estimator::Estimate estimate;
   GetPose(estimate, row);
   GetBiases(estimate, row);
@@ -274,6 +293,8 @@ estimator::Estimate DecodeEstimate(RowDecoder& row, std::int64_t* covariance_row
   estimate.form = GetNamed<estimator::ErrorForm>(row, "error_form", ErrorFormNames());
   estimate.has_covariance = row.Flag();
   estimate.has_biases = row.Flag();
+  estimate.contact = GetChannels<models::FootVector>(row, feet);
+  if (!estimate.contact.allFinite()) estimate.contact.resize(0);
   return estimate;
 }
 

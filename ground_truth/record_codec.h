@@ -22,7 +22,8 @@ namespace reckon::ground_truth {
 
 void Encode(const Truth& truth, RowEncoder& row);
 void Encode(const models::Measurement& measurement, std::uint64_t order, RowEncoder& row);
-void Encode(const estimator::Estimate& estimate, std::int64_t covariance_row, RowEncoder& row);
+void Encode(const estimator::Estimate& estimate, std::int64_t covariance_row, int feet,
+            RowEncoder& row);
 void Encode(const estimator::Correction& correction, std::uint64_t order, RowEncoder& row);
 void Encode(const models::Measurement& measurement, estimator::Refusal reason, std::uint64_t order,
             RowEncoder& row);
@@ -33,7 +34,7 @@ Truth DecodeTruth(RowDecoder& row, int wheels, int feet);
 models::Measurement DecodeMeasurement(RowDecoder& row, models::SensorId sensor,
                                       models::SensorKind kind, int channels, std::uint64_t* order);
 /// Without the covariance, which is in a table of its own.
-estimator::Estimate DecodeEstimate(RowDecoder& row, std::int64_t* covariance_row);
+estimator::Estimate DecodeEstimate(RowDecoder& row, int feet, std::int64_t* covariance_row);
 /// `sensors` is how many the recording knows.
 estimator::Correction DecodeCorrection(RowDecoder& row, std::size_t sensors);
 RefusedMeasurement DecodeRefusal(RowDecoder& row, std::size_t sensors);

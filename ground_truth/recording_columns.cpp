@@ -95,15 +95,15 @@ void AddPoseSample(Columns& columns) {
   Add(columns, "has_orientation", Type::kUint8, "1", "0: R_WS and its sigma say nothing");
 }
 
-void AddContacts(Columns& columns, const std::vector<std::string>& feet) {
-  for (const auto& foot : feet) {
-    Add(columns, foot + "_contact", Type::kFloat64, "1", "probability that the foot stands");
+void AddChannels(Columns& columns, const std::vector<std::string>& channels, const char* suffix,
+                 const char* unit, const char* meaning) {
+  for (const auto& channel : channels) {
+    Add(columns, channel + suffix, Type::kFloat64, unit, meaning);
   }
 }
 
-constexpr std::array<std::string_view, 6> kSensorKinds{"imu",   "encoders", "body_velocity",
-                                                       "depth", "pose",     "contacts"};
-static_assert(static_cast<std::size_t>(models::SensorKind::kContacts) + 1 == kSensorKinds.size());
+constexpr std::array<std::string_view, models::kSensorKinds> kSensorKinds{
+    "imu", "encoders", "body_velocity", "depth", "pose", "contacts", "torques", "foot_forces"};
 constexpr std::array<std::string_view, 3> kErrorForms{"right_invariant", "left_invariant",
                                                       "multiplicative"};
 constexpr std::array<std::string_view, 6> kDecisions{"accepted", "warned",  "inflated",
@@ -178,13 +178,19 @@ Columns MeasurementColumns(const RecordedSensor& sensor) {
       AddPoseSample(columns);
       break;
     case models::SensorKind::kContacts:
-      AddContacts(columns, sensor.channels);
+      AddChannels(columns, sensor.channels, "_contact", "1", "probability that the foot stands");
+      break;
+    case models::SensorKind::kTorques:
+      AddChannels(columns, sensor.channels, "_n_m", "N m", "torque of the joint's motor");
+      break;
+    case models::SensorKind::kFootForces:
+      AddChannels(columns, sensor.channels, "_n", "N", "force that presses the foot");
       break;
   }
   return columns;
 }
 
-Columns EstimateColumns() {
+Columns EstimateColumns(const std::vector<std::string>& feet) {
   Columns columns;
   AddTime(columns, "t_ns", "the instant that is estimated");
   AddPose(columns);
@@ -193,6 +199,8 @@ Columns EstimateColumns() {
   Add(columns, "error_form", Type::kUint8, "1", "see error_form_names");
   Add(columns, "has_covariance", Type::kUint8, "1", "whether the estimator has a covariance");
   Add(columns, "has_biases", Type::kUint8, "1", "whether the estimator estimates biases");
+  AddChannels(columns, feet, "_contact", "1",
+              "probability that the foot stands, as used; NaN: the estimator does not say");
   return columns;
 }
 

@@ -14,7 +14,7 @@ namespace reckon::ground_truth {
 /// follow the same order.
 Columns TruthColumns(const std::vector<std::string>& wheels, const std::vector<std::string>& feet);
 Columns MeasurementColumns(const RecordedSensor& sensor);
-Columns EstimateColumns();
+Columns EstimateColumns(const std::vector<std::string>& feet);
 Columns CorrectionColumns();
 Columns RefusalColumns();
 Columns PriorColumns();

@@ -12,7 +12,7 @@ namespace reckon::ground_truth {
 /// A sensor whose measurements are recorded; its place in the plan is its `SensorId`.
 struct RecordedSensor {
   models::MountedSensor sensor;       ///< as the nominal robot mounts it
-  std::vector<std::string> channels;  ///< encoders, contacts: a name for each entry of a sample
+  std::vector<std::string> channels;  ///< a name for each of a sample's, see MostChannels
 };
 
 /// What a recording holds. All its streams are made before the run starts.

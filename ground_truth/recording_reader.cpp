@@ -177,8 +177,7 @@ class RecordingReader::Impl {
 
   /// A sample can't hold more channels than its type has room for.
   void CheckChannels(const RecordedSensor& recorded) const {
-    const bool feet = recorded.sensor.kind == models::SensorKind::kContacts;
-    const std::size_t most = feet ? models::kMaxFeet : models::kMaxEncoders;
+    const auto most = static_cast<std::size_t>(models::MostChannels(recorded.sensor.kind));
     if (recorded.channels.size() <= most) return;
     throw RecordingError(fmt::format("{}: sensor {} has {} channels, at most {} are possible",
                                      path_.string(), recorded.sensor.name, recorded.channels.size(),
@@ -261,14 +260,15 @@ Cursor<estimator::Estimate> RecordingReader::ReadEstimates(std::size_t estimator
   if (impl_->Has(group + "/covariance")) {
     covariances = impl_->Table(group + "/covariance", {}, kCovarianceWidth);
   }
-  const auto states = impl_->Table(group + "/state", EstimateColumns());
+  const int feet = static_cast<int>(impl_->feet().size());
+  const auto states = impl_->Table(group + "/state", EstimateColumns(impl_->feet()));
   return Cursor<estimator::Estimate>(
-      [keep = impl_, states, covariances]() -> std::optional<estimator::Estimate> {
+      [keep = impl_, states, covariances, feet]() -> std::optional<estimator::Estimate> {
         const std::byte* row = states->Next();
         if (row == nullptr) return std::nullopt;
         std::int64_t covariance_row = -1;
         estimator::Estimate estimate = Decoded(*states, row, [&](RowDecoder& decoder) {
-          return DecodeEstimate(decoder, &covariance_row);
+          return DecodeEstimate(decoder, feet, &covariance_row);
         });
         estimate.has_covariance = covariance_row >= 0;
         if (!estimate.has_covariance) return estimate;

@@ -122,7 +122,8 @@ class RunRecorder::Impl {
       tables.covariance->Append(
           [&estimate](RowEncoder& row) { row.PutSymmetric(estimate.covariance); });
     }
-    tables.state->Append([&](RowEncoder& row) { Encode(estimate, covariance_row, row); });
+    const auto feet = static_cast<int>(plan_.feet.size());
+    tables.state->Append([&](RowEncoder& row) { Encode(estimate, covariance_row, feet, row); });
   }
 
   void Add(std::size_t index, const models::Measurement& measurement,
@@ -180,11 +181,9 @@ class RunRecorder::Impl {
                                   "' sent another kind of sample");
     }
     const auto* encoders = std::get_if<models::EncoderSample>(&measurement.sample);
-    const auto* contacts = std::get_if<models::ContactSample>(&measurement.sample);
-    const auto channels = static_cast<Eigen::Index>(planned.channels.size());
-    if ((encoders != nullptr &&
-         (encoders->angle_rad.size() != channels || encoders->rate_rad_s.size() != channels)) ||
-        (contacts != nullptr && contacts->probability.size() != channels)) {
+    const auto channels = static_cast<int>(planned.channels.size());
+    if (models::Channels(measurement.sample) != channels ||
+        (encoders != nullptr && encoders->rate_rad_s.size() != channels)) {
       throw std::invalid_argument("sensor '" + planned.sensor.name +
                                   "' sent another number of channels than planned");
     }
@@ -261,7 +260,7 @@ class RunRecorder::Impl {
     MakeGroup(group);
     tables.thinning = Thinning(plan_.estimate_period_ns);
     if (plan_.estimates) {
-      tables.state.emplace(MakeTable(group + "/state", EstimateColumns()));
+      tables.state.emplace(MakeTable(group + "/state", EstimateColumns(plan_.feet)));
       WriteAttribute(tables.state->dataset(), "error_form_names", Strings(ErrorFormNames()));
       if (plan_.covariance) {
         const std::size_t row_bytes = kCovarianceWidth * sizeof(double);

@@ -9,6 +9,7 @@
 #include "reckon/ground_truth/alignment.h"
 #include "reckon/ground_truth/ate.h"
 #include "reckon/ground_truth/body_errors.h"
+#include "reckon/ground_truth/contact_scores.h"
 #include "reckon/ground_truth/drift.h"
 #include "reckon/ground_truth/metrics.h"
 #include "reckon/ground_truth/nis.h"
@@ -189,10 +190,35 @@ void AddSensor(Metrics& metrics, const Track& track, models::SensorId id, const 
   }
 }
 
+void AddContacts(Metrics& metrics, const Track& track, const std::vector<std::string>& feet) {
+  const Samples samples = track.samples();
+  const bool applies = std::any_of(samples.begin(), samples.end(),
+                                   [](const TrackSample& sample) { return sample.feet.said; });
+  const ContactScores scores = ScoreContacts(samples, static_cast<int>(feet.size()));
+  const auto add = [&](const std::string& name, double share, const std::string& meaning) {
+    const bool counts = applies && std::isfinite(share);
+    metrics.Add({"contact_" + name + "_percent", 100.0 * share, counts, "%", meaning});
+  };
+  add("accuracy", scores.accuracy, "contacts believed rightly, over instants and feet");
+  add("accuracy_all", scores.all_accuracy, "instants at which all feet are believed rightly");
+  for (std::size_t i = 0; i < feet.size(); ++i) {
+    add("accuracy_" + feet[i], scores.foot_accuracy[i], "contacts of that foot believed rightly");
+  }
+  add("false_positive", scores.false_positive_rate, "swinging feet that are believed to stand");
+  add("false_negative", scores.false_negative_rate, "standing feet that are believed to swing");
+  metrics.Add({"contact_touchdown_delay_s", scores.touchdown_delay_s,
+               applies && scores.touchdowns > 0, "s", "mean, from touchdown to its belief"});
+  metrics.Add({"contact_liftoff_delay_s", scores.liftoff_delay_s, applies && scores.liftoffs > 0,
+               "s", "mean, from lift-off to its belief"});
+  metrics.Add({"contact_missed_count",
+               static_cast<double>(scores.missed_touchdowns + scores.missed_liftoffs), applies,
+               "count", "touchdowns and lift-offs that the belief never saw"});
+}
+
 }  // namespace
 
 Metrics Score(const Track& track, const std::vector<std::string>& sensors,
-              const ScoreOptions& options) {
+              const ScoreOptions& options, const std::vector<std::string>& feet) {
   Metrics metrics;
   AddAbsolute(metrics, track.samples(), options.align);
   AddBody(metrics, track.samples());
@@ -203,11 +229,13 @@ Metrics Score(const Track& track, const std::vector<std::string>& sensors,
   for (std::size_t id = 0; id < sensors.size(); ++id) {
     AddSensor(metrics, track, static_cast<models::SensorId>(id), sensors[id]);
   }
+  if (!feet.empty()) AddContacts(metrics, track, feet);
   return metrics;
 }
 
-Metrics MetricCatalogue(const std::vector<std::string>& sensors, const ScoreOptions& options) {
-  return Score(Track(), sensors, options);
+Metrics MetricCatalogue(const std::vector<std::string>& sensors, const ScoreOptions& options,
+                        const std::vector<std::string>& feet) {
+  return Score(Track(), sensors, options, feet);
 }
 
 }  // namespace reckon::ground_truth

@@ -18,6 +18,19 @@ Eigen::Vector3d Whiten(const estimator::Correction& correction) {
   return whitened;
 }
 
+FeetBelief FeetOf(const Truth& truth, const estimator::Estimate& estimate) {
+  FeetBelief feet;
+  feet.said = estimate.contact.size() > 0 && estimate.contact.size() == truth.feet.count;
+  if (!feet.said) return feet;
+  for (int i = 0; i < truth.feet.count; ++i) {
+    const int bit = 1 << i;
+    const bool stands = truth.feet.foot[static_cast<std::size_t>(i)].contact;
+    if (stands) feet.stands = static_cast<std::uint8_t>(feet.stands | bit);
+    if (estimate.contact[i] > 0.5) feet.believed = static_cast<std::uint8_t>(feet.believed | bit);
+  }
+  return feet;
+}
+
 }  // namespace
 
 void Track::Add(const Truth& truth, const estimator::Estimate& estimate) {
@@ -25,7 +38,7 @@ void Track::Add(const Truth& truth, const estimator::Estimate& estimate) {
   samples_.push_back({estimate.t_ns, truth.X_WB, estimate.X_WB, truth.v_WB, estimate.v_WB,
                       estimate.gyro_bias_rad_s - truth.gyro_bias_rad_s,
                       estimate.accel_bias_m_s2 - truth.accel_bias_m_s2,
-                      ComputeNees(truth, estimate)});
+                      ComputeNees(truth, estimate), FeetOf(truth, estimate)});
   has_biases_ = has_biases_ || (estimate.has_biases && truth.has_biases);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <vector>
 
 #include "reckon/estimator/estimate.h"
@@ -12,6 +13,15 @@
 
 namespace reckon::ground_truth {
 
+/// Which feet stand, in truth and by the estimator: a bit a foot.
+struct FeetBelief {
+  std::uint8_t stands = 0, believed = 0;
+  bool said = false;  ///< whether the estimator says which do
+
+  bool Stands(int foot) const { return ((stands >> foot) & 1) != 0; }
+  bool IsBelieved(int foot) const { return ((believed >> foot) & 1) != 0; }
+};
+
 /// Truth and estimate of the body at one instant.
 struct TrackSample {
   models::TimeNs t_ns = 0;
@@ -20,6 +30,7 @@ struct TrackSample {
   Eigen::Vector3d gyro_bias_error_rad_s = Eigen::Vector3d::Zero();  ///< estimate − truth
   Eigen::Vector3d accel_bias_error_m_s2 = Eigen::Vector3d::Zero();  ///< estimate − truth
   Nees nees;
+  FeetBelief feet;
 };
 
 /// One correction, as far as it is scored.

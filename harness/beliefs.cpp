@@ -54,6 +54,9 @@ estimator::Setup MakeSetup(const EstimatorConfig& config, const InitialConfig& i
   setup.standstill = config.standstill;
   setup.floor = config.floor;
   setup.feet = config.feet;
+  setup.leg_correction = config.leg_correction;
+  setup.contacts = config.contacts;
+  setup.slip = config.slip;
   setup.gyro_filter = config.gyro_filter;
   setup.prior_sigma = initial.sigma;
   setup.gravity_m_s2 = gravity_m_s2;

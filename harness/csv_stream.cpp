@@ -110,6 +110,10 @@ void CsvStream::FindColumns() {
       return;
     case SensorKind::kContacts:
       return need(sensor_.channels);
+    case SensorKind::kTorques:
+      return need(Named(sensor_.channels, "_n_m"));
+    case SensorKind::kFootForces:
+      return need(Named(sensor_.channels, "_n"));
   }
 }
 
@@ -149,9 +153,13 @@ models::Sample CsvStream::ReadSample() {
     case SensorKind::kPose:
       return ReadPose();
     case SensorKind::kContacts:
+      return models::ContactSample{ReadChannels<models::FootVector>()};
+    case SensorKind::kTorques:
+      return models::TorqueSample{ReadChannels<models::EncoderVector>()};
+    case SensorKind::kFootForces:
       break;
   }
-  return ReadContacts();
+  return models::FootForceSample{ReadChannels<models::FootVector>()};
 }
 
 models::Sample CsvStream::ReadImu() {
@@ -212,13 +220,13 @@ models::Sample CsvStream::ReadPose() const {
   return sample;
 }
 
-models::Sample CsvStream::ReadContacts() const {
-  models::ContactSample sample;
-  sample.probability.resize(static_cast<Eigen::Index>(columns_.size()));
+template <class Vector>
+Vector CsvStream::ReadChannels() const {
+  Vector values(static_cast<Eigen::Index>(columns_.size()));
   for (std::size_t i = 0; i < columns_.size(); ++i) {
-    sample.probability[static_cast<Eigen::Index>(i)] = table_.Number(columns_[i]);
+    values[static_cast<Eigen::Index>(i)] = table_.Number(columns_[i]);
   }
-  return sample;
+  return values;
 }
 
 CsvTruth::CsvTruth(const std::filesystem::path& path)

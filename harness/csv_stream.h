@@ -46,7 +46,8 @@ class CsvStream {
   models::Sample ReadEncoders();
   models::Sample ReadVelocity() const;
   models::Sample ReadPose() const;
-  models::Sample ReadContacts() const;
+  template <class Vector>
+  Vector ReadChannels() const;
   void FindColumns();
   models::TimeNs Interval() const;
 

@@ -66,7 +66,9 @@ std::span<const Choice<sim::SensorType>> Choices() {
       {Type::kDepth, "depth", "a pressure sensor: how deep it lies"},
       {Type::kPose, "pose", "an absolute pose or position from outside, with white noise"},
       {Type::kDvl, "dvl", "a Doppler velocity log, beam by beam"},
-      {Type::kContacts, "contacts", "which feet stand, by truth or by the gait"}};
+      {Type::kContacts, "contacts", "which feet stand, by truth or by the gait"},
+      {Type::kTorques, "torques", "of the motors of all joints"},
+      {Type::kFootForces, "foot_forces", "what presses each foot, along the ground's normal"}};
   return kChoices;
 }
 
@@ -98,6 +100,15 @@ std::span<const Choice<sim::ContactSource>> Choices() {
   static const std::vector<Choice<Source>> kChoices{
       {Source::kTruth, "truth", "the true contacts"},
       {Source::kGait, "gait", "the schedule of the walking controller"}};
+  return kChoices;
+}
+
+template <>
+std::span<const Choice<sim::TorqueSource>> Choices() {
+  using Source = sim::TorqueSource;
+  static const std::vector<Choice<Source>> kChoices{
+      {Source::kMeasured, "measured", "what the motors give, with errors"},
+      {Source::kCommanded, "commanded", "what the controller asks for"}};
   return kChoices;
 }
 
@@ -161,6 +172,44 @@ std::span<const Choice<estimator::FootKind>> Choices() {
   static const std::vector<Choice<Kind>> kChoices{
       {Kind::kRolling, "rolling", "a sphere that rolls on level ground"},
       {Kind::kStatic, "static", "a point that stands"}};
+  return kChoices;
+}
+
+template <>
+std::span<const Choice<estimator::LegCorrection>> Choices() {
+  using Use = estimator::LegCorrection;
+  static const std::vector<Choice<Use>> kChoices{
+      {Use::kPosition, "position", "its place is part of the state"},
+      {Use::kVelocity, "velocity", "leg odometry: a velocity correction"}};
+  return kChoices;
+}
+
+template <>
+std::span<const Choice<estimator::ForceModel>> Choices() {
+  using Model = estimator::ForceModel;
+  static const std::vector<Choice<Model>> kChoices{
+      {Model::kMomentum, "momentum", "a momentum observer of each leg"},
+      {Model::kInertia, "inertia", "the leg's dynamics, accelerations by difference"},
+      {Model::kStatic, "static", "what the torques hold beside the leg's weight"}};
+  return kChoices;
+}
+
+template <>
+std::span<const Choice<estimator::SlipRule>> Choices() {
+  using Rule = estimator::SlipRule;
+  static const std::vector<Choice<Rule>> kChoices{
+      {Rule::kOff, "off", "nothing"},
+      {Rule::kSpeed, "speed", "its speed, as the state and the encoders have it"},
+      {Rule::kNis, "nis", "the normalised innovation squared of its leg's odometry"}};
+  return kChoices;
+}
+
+template <>
+std::span<const Choice<estimator::SlipAction>> Choices() {
+  using Action = estimator::SlipAction;
+  static const std::vector<Choice<Action>> kChoices{
+      {Action::kInflate, "inflate", "its own belief is widened along the innovation"},
+      {Action::kDrop, "drop", "it is forgotten, and stands anew where the leg says"}};
   return kChoices;
 }
 

@@ -39,6 +39,8 @@ std::span<const Choice<sim::GaitKind>> Choices();
 template <>
 std::span<const Choice<sim::ContactSource>> Choices();
 template <>
+std::span<const Choice<sim::TorqueSource>> Choices();
+template <>
 std::span<const Choice<sim::MissionKind>> Choices();
 template <>
 std::span<const Choice<sim::FeatureKind>> Choices();
@@ -50,6 +52,14 @@ template <>
 std::span<const Choice<estimator::ErrorForm>> Choices();
 template <>
 std::span<const Choice<estimator::FootKind>> Choices();
+template <>
+std::span<const Choice<estimator::LegCorrection>> Choices();
+template <>
+std::span<const Choice<estimator::ForceModel>> Choices();
+template <>
+std::span<const Choice<estimator::SlipRule>> Choices();
+template <>
+std::span<const Choice<estimator::SlipAction>> Choices();
 template <>
 std::span<const Choice<ground_truth::Alignment>> Choices();
 template <>

@@ -32,6 +32,10 @@ void Describe(Archive& a, estimator::Noise& n) {
           "Of what a leg's kinematics leave out, each axis, a sample", Between(0, 10));
   a.Field("foot_slip_m_per_s_sqrt_hz", n.foot_slip_m_per_s_sqrt_hz,
           "Velocity of a standing foot, white", Between(0, 100));
+  a.Field("joint_rate_rad_per_s", n.joint_rate_rad_per_s,
+          "Rate of a leg's joint, white, a sample: of legs used as a velocity", Between(0, 100));
+  a.Field("leg_velocity_m_per_s", n.leg_velocity_m_per_s,
+          "Velocity of a standing foot, white, a sample, each axis: likewise", Between(0, 100));
   a.Field("wheel_yaw_rate_rad_per_s", n.wheel_yaw_rate_rad_per_s,
           "Turn rate from the wheels, white, a sample", Between(0, 100));
   a.Field("standstill_m_per_s", n.standstill_m_per_s,
@@ -76,6 +80,38 @@ void Describe(Archive& a, estimator::FlatFloor& f) {
   a.Field("use", f.use, "Take the ground for a floor of one known height");
   a.Field("height_m", f.height_m, "z of a standing foot, or else of the body's origin",
           Between(-1e4, 1e4));
+}
+
+template <class Archive>
+void Describe(Archive& a, estimator::ContactDetection& c) {
+  a.Field("sensor", c.sensor,
+          "The contact, torque or foot force sensor that it believes; empty: the robot's contacts");
+  a.Field("force_model", c.force, "What is made of torques");
+  a.Field("observer_hz", c.observer_hz, "Pole of the momentum observer", AboveUpTo(0, 1e4));
+  a.Field("cutoff_hz", c.cutoff_hz, "One pole that forces go through; 0: none", Between(0, 1e4));
+  a.Field("threshold_n", c.threshold_n, "A foot stands from this upward force on", Between(0, 1e5));
+  a.Field("hysteresis_n", c.hysteresis_n, "And until the force has fallen this far below it",
+          Between(0, 1e5));
+  a.Field("logistic_n", c.logistic_n,
+          "Width of a logistic probability around the threshold; 0: a switch", Between(0, 1e5));
+}
+
+template <class Archive>
+void Describe(Archive& a, estimator::SlipRejection& s) {
+  using Rule = estimator::SlipRule;
+  a.Kind("rule", s.rule, Choices<Rule>(), "What tells that a standing foot slips");
+  if (s.rule == Rule::kSpeed) {
+    a.Field("speed_m_s", s.speed_m_s, "A faster foot slips", AboveUpTo(0, 100));
+    a.Field("factor", s.factor, "On the variance of the velocity of a foot that slips",
+            Between(1, 1e6));
+  }
+  if (s.rule == Rule::kNis) {
+    a.Field("probability", s.probability, "Chi-square quantile of the NIS of its leg's odometry",
+            AboveUpTo(0.5, 1 - 1e-12));
+    a.Field("action", s.action, "What becomes of a foot beyond it");
+    a.Field("correlation_s", s.correlation_s, "Inflate: how long a slip keeps its velocity",
+            AboveUpTo(0, 10));
+  }
 }
 
 template <class Archive>
@@ -129,6 +165,9 @@ void Describe(Archive& a, EstimatorConfig& e) {
     a.Field("standstill", e.standstill, "What is made of a robot that stands still");
     a.Field("floor", e.floor, "What is made of flat ground");
     a.Field("feet", e.feet, "What a standing foot is taken for");
+    a.Field("leg_correction", e.leg_correction, "How a standing foot is used");
+    a.Field("contacts", e.contacts, "How it is told which feet stand");
+    a.Field("slip", e.slip, "What is made of feet that slip");
     a.Field("gyro_filter", e.gyro_filter, "The stage that refines the angular rate");
     a.Field("estimate_gyro_bias", e.estimate_gyro_bias, "false: keeps the prior's");
     a.Field("estimate_accel_bias", e.estimate_accel_bias, "false: keeps the prior's");

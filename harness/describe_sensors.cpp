@@ -76,6 +76,10 @@ sim::SensorErrors DefaultErrors(sim::SensorType type) {
       return sim::DvlConfig{};
     case sim::SensorType::kContacts:
       return sim::ContactSensorConfig{};
+    case sim::SensorType::kTorques:
+      return sim::TorqueConfig{};
+    case sim::SensorType::kFootForces:
+      return sim::FootForceConfig{};
   }
   return sim::ImuConfig{};
 }

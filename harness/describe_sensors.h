@@ -6,19 +6,11 @@
 
 #include "reckon/harness/describe_choices.h"
 #include "reckon/harness/describe_dvl.h"
+#include "reckon/harness/describe_leg_sensors.h"
+#include "reckon/harness/describe_timing.h"
 #include "reckon/harness/describe_traits.h"
 
 namespace reckon::harness {
-
-template <class Archive>
-void DescribeTiming(Archive& a, sim::Timing& t) {
-  a.Field("rate_hz", t.rate_hz, "Samples a second, an integer fraction of the physics rate",
-          AboveUpTo(0, 1e5));
-  a.Field("latency_s", t.latency_s, "From a sample's validity to its arrival", Between(0, 60));
-  a.Field("stamp_error_s", t.stamp_error_s,
-          "The sensor's clock is off: a sample claims to be valid this much after it was",
-          Between(-60, 60));
-}
 
 template <class Archive>
 void DescribeGyroErrors(Archive& a, sim::TriadErrors& e) {
@@ -82,6 +74,8 @@ void DescribeErrors(Archive& a, sim::EncoderConfig& e) {
   a.Field("scale", e.scale, "Sigma of the scale error drawn once an encoder", Between(0, 1));
   a.Field("rate_window_s", e.rate_window_s, "The firmware differences counts over this window",
           AboveUpTo(0, 10));
+  a.Field("rate_filter_hz", e.rate_filter_hz, "And smooths that with one pole; 0: does not",
+          Between(0, 1e5));
 }
 
 template <class Archive>
@@ -114,12 +108,6 @@ void DescribeErrors(Archive& a, sim::PoseConfig& e) {
   a.Field("orientation", e.orientation, "false: it knows its position alone");
 }
 
-template <class Archive>
-void DescribeErrors(Archive& a, sim::ContactSensorConfig& e) {
-  DescribeTiming(a, e.timing);
-  a.Field("source", e.source, "Where it knows it from");
-}
-
 template <sim::SensorType type, class Errors>
 inline constexpr bool kIsOfType =
     std::is_same_v<std::variant_alternative_t<static_cast<std::size_t>(type), sim::SensorErrors>,
@@ -130,7 +118,9 @@ static_assert(kIsOfType<sim::SensorType::kImu, sim::ImuConfig> &&
               kIsOfType<sim::SensorType::kDepth, sim::DepthConfig> &&
               kIsOfType<sim::SensorType::kPose, sim::PoseConfig> &&
               kIsOfType<sim::SensorType::kDvl, sim::DvlConfig> &&
-              kIsOfType<sim::SensorType::kContacts, sim::ContactSensorConfig>);
+              kIsOfType<sim::SensorType::kContacts, sim::ContactSensorConfig> &&
+              kIsOfType<sim::SensorType::kTorques, sim::TorqueConfig> &&
+              kIsOfType<sim::SensorType::kFootForces, sim::FootForceConfig>);
 
 /// The errors that a sensor of this type has before anything is written.
 sim::SensorErrors DefaultErrors(sim::SensorType type);

@@ -146,8 +146,12 @@ class DriveRules {
                       actual.encoder_offset_rad.empty(),
                   "/actual", "nothing of legs: this robot has none");
     for (const auto& [name, sensor] : s_.sensors) {
-      book_.Require(!std::holds_alternative<sim::ContactSensorConfig>(sensor.errors),
-                    "/sensors/" + name + "/type", "no contacts: this robot has no feet");
+      const auto sent = sim::KindOf(sensor.errors);
+      book_.Require(sent != models::SensorKind::kContacts &&
+                        sent != models::SensorKind::kFootForces &&
+                        sent != models::SensorKind::kTorques,
+                    "/sensors/" + name + "/type",
+                    "no contacts, foot forces or torques: this robot has no legs");
     }
   }
 

@@ -64,7 +64,7 @@ Section Grades() {
 
 Section MetricSection() {
   Section section{"metrics", {}};
-  const auto metrics = ground_truth::MetricCatalogue({"<sensor>"}, {});
+  const auto metrics = ground_truth::MetricCatalogue({"<sensor>"}, {}, {"<foot>"});
   for (const auto& metric : metrics.list()) {
     const std::string unit = metric.unit.empty() ? "" : fmt::format(" [{}]", metric.unit);
     section.entries.push_back({metric.name, metric.meaning + unit, {}});

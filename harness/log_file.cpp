@@ -26,7 +26,9 @@ std::span<const Choice<SensorKind>> LogKinds() {
       {SensorKind::kBodyVelocity, "body_velocity", "a velocity over ground, such as a DVL's"},
       {SensorKind::kDepth, "depth", "a pressure sensor: how deep it lies"},
       {SensorKind::kPose, "pose", "an absolute pose or position from outside"},
-      {SensorKind::kContacts, "contacts", "which feet stand"}};
+      {SensorKind::kContacts, "contacts", "which feet stand"},
+      {SensorKind::kTorques, "torques", "of the joints' motors"},
+      {SensorKind::kFootForces, "foot_forces", "what presses each foot"}};
   return kKinds;
 }
 
@@ -92,10 +94,8 @@ class LogRules {
     if (!FromQuaternion(sensor.quaternion_wxyz)) {
       Complain(path + "/quaternion_wxyz", "expected a quaternion of length one");
     }
-    const bool named = sensor.kind == SensorKind::kEncoders || sensor.kind == SensorKind::kContacts;
-    const std::size_t most =
-        sensor.kind == SensorKind::kContacts ? models::kMaxFeet : models::kMaxEncoders;
-    if (named && (sensor.channels.empty() || sensor.channels.size() > most)) {
+    const auto most = static_cast<std::size_t>(models::MostChannels(sensor.kind));
+    if (most > 0 && (sensor.channels.empty() || sensor.channels.size() > most)) {
       Complain(path + "/channels", "expected 1 to " + std::to_string(most) + " names");
     }
   }
@@ -166,7 +166,7 @@ void Describe(Archive& a, LogSensor& s) {
           Between(-1, 1));
   a.Field("rotation_matrix", s.rotation_matrix, "The same, row by row, instead",
           Between(-1.02, 1.02));
-  if (s.kind == SensorKind::kEncoders || s.kind == SensorKind::kContacts) {
+  if (models::MostChannels(s.kind) > 0) {
     a.Field("channels", s.channels, "A name for each entry, as in the file's header");
   }
   if (s.kind == SensorKind::kBodyVelocity) {
@@ -260,7 +260,6 @@ sim::SensorType TypeThatSends(SensorKind kind) {
 std::map<std::string, SensorConfig> SensorsOf(const LogFile& log) {
   std::map<std::string, SensorConfig> sensors;
   for (const auto& [name, sensor] : log.sensors) {
-    if (sensor.kind == SensorKind::kContacts) continue;
     sensors[name].errors = DefaultErrors(TypeThatSends(sensor.kind));
   }
   return sensors;

@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <nlohmann/json.hpp>
 
+#include "reckon/ground_truth/recording_columns.h"
 #include "reckon/harness/process_answer.h"
 
 namespace reckon::harness {
@@ -36,14 +37,13 @@ Json Frame(const models::Pose& X_BS) {
 }
 
 Json Sensors(const models::Suite& suite) {
-  constexpr std::array kKinds{"imu", "encoders", "body_velocity", "depth", "pose", "contacts"};
-  static_assert(static_cast<std::size_t>(models::SensorKind::kContacts) + 1 == kKinds.size());
+  const auto kinds = ground_truth::SensorKindNames();
   Json out = Json::array();
   for (std::size_t id = 0; id < suite.sensors.size(); ++id) {
     const models::MountedSensor& sensor = suite.sensors[id];
     Json entry{{"id", id},
                {"name", sensor.name},
-               {"kind", kKinds.at(static_cast<std::size_t>(sensor.kind))},
+               {"kind", kinds[static_cast<std::size_t>(sensor.kind)]},
                {"period_ns", sensor.period_ns}};
     entry.update(Frame(sensor.X_BS));
     out.push_back(std::move(entry));
@@ -139,6 +139,16 @@ void AddSample(Json& message, const models::PoseSample& pose) {
 void AddSample(Json& message, const models::ContactSample& contacts) {
   message["message"] = "contacts";
   message["probability"] = Numbers(contacts.probability);
+}
+
+void AddSample(Json& message, const models::TorqueSample& torques) {
+  message["message"] = "torques";
+  message["torque_n_m"] = Numbers(torques.torque_n_m);
+}
+
+void AddSample(Json& message, const models::FootForceSample& forces) {
+  message["message"] = "foot_forces";
+  message["force_n"] = Numbers(forces.force_n);
 }
 
 std::string Line(const Json& message) { return message.dump() + '\n'; }

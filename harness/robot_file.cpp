@@ -77,8 +77,10 @@ models::LegSet LegsOf(const Scenario& scenario, const models::UrdfRobot& urdf,
                       scenario.nominal.legs.contacts,
                       {},
                       scenario.nominal.legs.foot_radius_m};
-  for (const std::string& foot : std::get<sim::LeggedConfig>(scenario.drive).feet) {
+  const auto& legged = std::get<sim::LeggedConfig>(scenario.drive);
+  for (const std::string& foot : legged.feet) {
     legs.legs.emplace_back(urdf, foot, joints);
+    legs.dynamics.emplace_back(urdf, foot, joints, legged.armature_kg_m2);
   }
   return legs;
 }
@@ -134,9 +136,10 @@ Robot MakeRobot(const Scenario& scenario, const models::UrdfRobot& urdf) {
     const auto id = static_cast<models::SensorId>(robot.sensors.size());
     robot.nominal.sensors.push_back({name, sim::KindOf(sensor.errors), X_BS, PeriodOf(sensor)});
     const models::SensorKind kind = robot.nominal.sensors.back().kind;
-    robot.channels.push_back(kind == models::SensorKind::kEncoders   ? robot.joints
-                             : kind == models::SensorKind::kContacts ? robot.feet
-                                                                     : Names());
+    const int most = models::MostChannels(kind);
+    robot.channels.push_back(most == models::kMaxEncoders ? robot.joints
+                             : most == models::kMaxFeet   ? robot.feet
+                                                          : Names());
     robot.sensors.push_back({name, id, ActualPose(X_BS, sensor, scenario.world.actual),
                              ActualErrors(sensor, scenario.world.actual, robot.joints)});
   }

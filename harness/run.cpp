@@ -20,6 +20,7 @@
 #include "reckon/harness/replay_experiment.h"
 #include "reckon/harness/results_folder.h"
 #include "reckon/harness/run_json.h"
+#include "reckon/harness/scenario_metrics.h"
 #include "reckon/harness/yaml_reader.h"
 #include "reckon/harness/yaml_writer.h"
 
@@ -76,7 +77,8 @@ void ScoreTracks(const Scenario& scenario, const Robot& robot, const Tracks& tra
   const std::vector<std::string> sensors = SensorNames(robot.nominal);
   result.scores.clear();
   for (const auto& [name, track] : tracks) {
-    result.scores.push_back({name, ground_truth::Score(track, sensors, scenario.score)});
+    result.scores.push_back(
+        {name, ground_truth::Score(track, sensors, scenario.score, robot.feet)});
   }
   Findings findings;
   findings.metric = [&result](const std::string& estimator,
@@ -166,8 +168,9 @@ std::optional<RunResult> Finished(const fs::path& folder, const Scenario& scenar
   if (ReadFile(folder / kResolved) != resolved) return std::nullopt;
   std::vector<std::string> sensors;
   for (const auto& [sensor, config] : scenario.sensors) sensors.push_back(sensor);
-  auto result = ReadRunJson(ReadFile(folder / "run.json"), ReadFile(folder / "metrics.json"),
-                            ground_truth::MetricCatalogue(sensors, scenario.score));
+  auto result =
+      ReadRunJson(ReadFile(folder / "run.json"), ReadFile(folder / "metrics.json"),
+                  ground_truth::MetricCatalogue(sensors, scenario.score, FeetOf(scenario)));
   if (!result) return std::nullopt;
   result->scenario = name;
   result->seed = scenario.seed;

@@ -40,6 +40,9 @@ struct EstimatorConfig {
   estimator::Standstill standstill;
   estimator::FlatFloor floor;
   estimator::FootKind feet = estimator::FootKind::kRolling;
+  estimator::LegCorrection leg_correction = estimator::LegCorrection::kPosition;
+  estimator::ContactDetection contacts;
+  estimator::SlipRejection slip;
   estimator::GyroFilter gyro_filter;
   bool estimate_gyro_bias = true;
   bool estimate_accel_bias = true;

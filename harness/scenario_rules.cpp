@@ -182,6 +182,7 @@ class Rules : private RuleBook {
       }
       CheckInitialisation(path, estimator);
       CheckGyroFilter(path + "/gyro_filter/source", estimator);
+      CheckContacts(path + "/contacts", estimator);
       CheckBelievedNoise(path, estimator);
     } else if (!s_.sensors.contains(wheels)) {
       Complain(path, "type 'odometry' needs wheel encoders, and this robot has none");
@@ -221,6 +222,19 @@ class Rules : private RuleBook {
             "a positive noise wheel_yaw_rate_rad_per_s beside wheels");
   }
 
+  void CheckContacts(const std::string& path, const EstimatorConfig& estimator) const {
+    const std::string& source = estimator.contacts.sensor;
+    if (source.empty()) return;
+    RequireOneOf(source, sensors_, path + "/sensor", "sensor");
+    const auto sensor = s_.sensors.find(source);
+    if (sensor == s_.sensors.end()) return;
+    using Kind = models::SensorKind;
+    const Kind kind = sim::KindOf(sensor->second.errors);
+    Require(kind == Kind::kContacts || kind == Kind::kTorques || kind == Kind::kFootForces,
+            path + "/sensor", "a sensor of contacts, torques or foot forces");
+    Require(IsGiven(estimator, source), path + "/sensor", "a sensor that the estimator is given");
+  }
+
   /// What is used must be weighed: no sigma of it can be zero.
   void CheckBelievedNoise(const std::string& path, const EstimatorConfig& estimator) const {
     Require(!estimator.standstill.use || estimator.noise.standstill_m_per_s > 0.0,
@@ -229,6 +243,14 @@ class Rules : private RuleBook {
             "a positive depth_m: the estimator is given a depth sensor");
     Require(!estimator.floor.use || estimator.noise.floor_height_m > 0.0, path + "/floor/use",
             "a positive noise floor_height_m beside it");
+    const bool velocity = estimator.leg_correction == estimator::LegCorrection::kVelocity;
+    const bool weighed = estimator.noise.leg_velocity_m_per_s > 0.0;
+    Require(!velocity || weighed, path + "/leg_correction",
+            "a positive noise leg_velocity_m_per_s beside velocity");
+    Require(estimator.slip.rule != estimator::SlipRule::kNis || weighed, path + "/slip/rule",
+            "a positive noise leg_velocity_m_per_s beside nis");
+    Require(!velocity || estimator.slip.rule == estimator::SlipRule::kOff, path + "/slip/rule",
+            "off: legs used as a velocity have no feet in the state");
   }
 
   static bool IsGiven(const EstimatorConfig& estimator, const std::string& sensor) {
@@ -252,7 +274,7 @@ class Rules : private RuleBook {
   void CheckExpectations() const {
     Require(s_.expect.exit_code != 2, "/expect/exit_code",
             "0, 1 or 3: a run that starts can't end with 2");
-    const Names metrics = MetricNames(sensors_, s_.score);
+    const Names metrics = MetricNames(sensors_, s_.score, FeetOf(s_));
     const Names estimators = KeysOf(s_.estimators);
     for (const auto& [name, expectation] : s_.expect.estimators) {
       const std::string path = "/expect/" + name;

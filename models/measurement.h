@@ -7,9 +7,11 @@
 #include "reckon/models/contact_sample.h"
 #include "reckon/models/depth_sample.h"
 #include "reckon/models/encoder_sample.h"
+#include "reckon/models/foot_force_sample.h"
 #include "reckon/models/imu_sample.h"
 #include "reckon/models/pose_sample.h"
 #include "reckon/models/time.h"
+#include "reckon/models/torque_sample.h"
 
 namespace reckon::models {
 
@@ -19,7 +21,7 @@ using SensorId = std::uint16_t;
 /// Everything that a robot's hardware can send. The variant is closed: truth is not one of its
 /// types.
 using Sample = std::variant<ImuSample, EncoderSample, BodyVelocitySample, DepthSample, PoseSample,
-                            ContactSample>;
+                            ContactSample, TorqueSample, FootForceSample>;
 
 /// One message of one sensor: the only thing that an estimator is ever given.
 struct Measurement {

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "reckon/models/leg_dynamics.h"
 #include "reckon/models/leg_kinematics.h"
 #include "reckon/models/measurement.h"
 #include "reckon/models/pose.h"
@@ -12,7 +15,37 @@
 namespace reckon::models {
 
 /// What a sensor sends: the alternatives of `Sample`, by name and in the same order.
-enum class SensorKind : std::uint8_t { kImu, kEncoders, kBodyVelocity, kDepth, kPose, kContacts };
+enum class SensorKind : std::uint8_t {
+  kImu,
+  kEncoders,
+  kBodyVelocity,
+  kDepth,
+  kPose,
+  kContacts,
+  kTorques,
+  kFootForces,
+};
+
+/// How many kinds there are.
+inline constexpr std::size_t kSensorKinds = std::variant_size_v<Sample>;
+
+/// The most channels that a sample of this kind can have: one for each joint, wheel or foot; 0 for
+/// kinds whose samples always have the same numbers.
+constexpr int MostChannels(SensorKind kind) {
+  switch (kind) {
+    case SensorKind::kEncoders:
+    case SensorKind::kTorques:
+      return kMaxEncoders;
+    case SensorKind::kContacts:
+    case SensorKind::kFootForces:
+      return kMaxFeet;
+    default:
+      return 0;
+  }
+}
+
+/// How many channels this sample has, of a kind that has channels; 0 for other kinds.
+int Channels(const Sample& sample);
 
 /// A sensor as the estimator believes it to be: what it is and where it sits on the nominal robot.
 struct MountedSensor {
@@ -37,10 +70,11 @@ struct WheelDrive {
 
 /// The believed legs of a walking robot; entry i of a contact sample speaks of leg i.
 struct LegSet {
-  std::string encoders;             ///< the sensor that reports the joints
-  std::string contacts;             ///< the sensor that says which feet stand
-  std::vector<LegKinematics> legs;  ///< at most kMaxFeet
-  double foot_radius_m = 0.0;       ///< of the sphere around a foot's origin
+  std::string encoders;                    ///< the sensor that reports the joints
+  std::string contacts;                    ///< the sensor that says which feet stand
+  std::vector<LegKinematics> legs;         ///< at most kMaxFeet
+  double foot_radius_m = 0.0;              ///< of the sphere around a foot's origin
+  std::vector<LegDynamics> dynamics = {};  ///< likewise; empty if the masses are not known
 };
 
 /// The nominal robot's sensors: a measurement's `sensor` is an index into `sensors`.

@@ -32,6 +32,11 @@ Encoders::Encoders(const std::string& name, models::SensorId id, const EncoderCo
       noise_(config.noise_rad),
       eccentricity_(config.eccentricity_rad),
       noise_draws_(seed, name + ".noise") {
+  RequireNotNegative(name, "rate_filter_hz", config.rate_filter_hz);
+  if (config.rate_filter_hz > 0.0) {
+    const double period_s = models::Seconds(clock_.period_ns());
+    rate_decay_ = std::exp(-2.0 * std::numbers::pi * config.rate_filter_hz * period_s);
+  }
   RequireNotNegative(name, "counts_per_rad", config.counts_per_rad);
   RequireNotNegative(name, "noise_rad", config.noise_rad);
   RequireNotNegative(name, "eccentricity_rad", config.eccentricity_rad);
@@ -53,7 +58,10 @@ void Encoders::Observe(const MotionWindow& motion, std::vector<models::Measureme
   if (clock_.IsSample(motion.t_ns)) {
     models::EncoderSample sample;
     sample.angle_rad = Read(motion);
-    sample.rate_rad_s = (sample.angle_rad - begin_) / models::Seconds(window_ns_);
+    if (rate_.size() == 0) rate_ = models::EncoderVector::Zero(sample.angle_rad.size());
+    const models::EncoderVector mean = (sample.angle_rad - begin_) / models::Seconds(window_ns_);
+    rate_ = mean + rate_decay_ * (rate_ - mean);
+    sample.rate_rad_s = rate_;
     sample.interval_ns = window_ns_;
     if (window_ns_ == clock_.period_ns()) begin_ = sample.angle_rad;
     out.push_back({id_, clock_.Valid(end_ns), clock_.Arrival(end_ns), sample});

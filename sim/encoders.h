@@ -15,8 +15,9 @@ namespace reckon::sim {
 /// Rotary encoders on the joints of the motion window, in its order. A reading of angle q is
 ///     q_m = floor(c (q (1 + s) + A sin(q + φ) + q₀ + n)) / c,   c = counts_per_rad,
 /// unquantised if c is zero; s, φ and q₀ are drawn once an encoder and run. A sample carries the
-/// reading at its stamp t and (reading at t − reading at t − window)/window. Readings belong to
-/// instants: two windows that touch share one.
+/// reading at its stamp t and d = (reading at t − reading at t − window)/window, or with a rate
+/// filter what one pole makes of that: r⁺ = d + e^(−2π f T) (r − d), T the sample period, r = 0 at
+/// first. Readings belong to instants: two windows that touch share one.
 ///
 /// Draws come from "<name>.noise" (channel = encoder, index = physics step), ".scale", ".phase" and
 /// ".offset".
@@ -39,6 +40,8 @@ class Encoders : public Sensor {
   RandomStream noise_draws_;
   std::array<double, models::kMaxEncoders> gain_{}, phase_{}, offset_{};
   models::EncoderVector begin_;  ///< the reading at the window's start
+  double rate_decay_ = 0.0;      ///< of the filter, in one period
+  models::EncoderVector rate_;   ///< out of the filter
 };
 
 }  // namespace reckon::sim

@@ -36,6 +36,10 @@ void ForEachChannel(models::Sample& sample, FaultChannels channels, const Visit&
     visit(channel, depth->depth_m);
   } else if (auto* pose = std::get_if<models::PoseSample>(&sample)) {
     visit_all(pose->X_WS.p, FaultChannels::kAll);
+  } else if (auto* torques = std::get_if<models::TorqueSample>(&sample)) {
+    visit_all(torques->torque_n_m, FaultChannels::kAll);
+  } else if (auto* forces = std::get_if<models::FootForceSample>(&sample)) {
+    visit_all(forces->force_n, FaultChannels::kAll);
   }
 }
 

@@ -19,6 +19,8 @@ Imu::Imu(const std::string& name, models::SensorId id, const models::Pose& X_BS,
       g_W_(0.0, 0.0, -gravity_m_s2),
       gyro_(name, "gyro", config.gyro, period_s_, seed),
       accel_(name, "accel", config.accel, period_s_, seed),
+      gyro_range_(config.gyro.range),
+      accel_range_(config.accel.range),
       R_begin_S_(Eigen::Matrix3d::Identity()),
       dv_begin_(Eigen::Vector3d::Zero()) {
   if (config.accel.g_sensitivity != 0.0) {
@@ -84,7 +86,18 @@ Imu::Inertial Imu::Point(const MotionWindow& motion) const {
 }
 
 Imu::Inertial Imu::Filtered(const Inertial& raw) {
-  return {filter_->gyro.Step(raw.gyro), filter_->accel.Step(raw.accel)};
+  const Inertial clipped = Clipped(raw);
+  return {filter_->gyro.Step(clipped.gyro), filter_->accel.Step(clipped.accel)};
+}
+
+Imu::Inertial Imu::Clipped(const Inertial& raw) {
+  const auto clip = [](const Eigen::Vector3d& u, double range, bool& clipped) -> Eigen::Vector3d {
+    if (range == 0.0 || u.cwiseAbs().maxCoeff() <= range) return u;
+    clipped = true;
+    return u.cwiseMax(-range).cwiseMin(range);
+  };
+  return {clip(raw.gyro, gyro_range_, gyro_clipped_),
+          clip(raw.accel, accel_range_, accel_clipped_)};
 }
 
 void Imu::Integrate(const Inertial& step) {
@@ -105,8 +118,9 @@ void Imu::Publish(const Inertial& truth, std::vector<models::Measurement>& out) 
   sample.gyro_rad_s = gyro.value;
   sample.accel_m_s2 = accel.value;
   sample.interval_ns = clock_.period_ns();
-  sample.gyro_saturated = gyro.saturated;
-  sample.accel_saturated = accel.saturated;
+  sample.gyro_saturated = gyro.saturated || gyro_clipped_;
+  sample.accel_saturated = accel.saturated || accel_clipped_;
+  gyro_clipped_ = accel_clipped_ = false;
   const models::TimeNs t_ns = clock_.next_ns();
   out.push_back({id_, clock_.Valid(t_ns), clock_.Arrival(t_ns), sample});
   clock_.Advance();

@@ -30,7 +30,9 @@ inline double LargestBandwidthHz(models::TimeNs physics_step_ns) {
 ///
 /// With a bandwidth, ω and a of every physics step pass a low-pass first, and a sample of mode
 /// `increment` integrates the filtered ones over its interval. The bandwidth does not touch the
-/// noise, which stays white.
+/// noise, which stays white. The range then clips what the filter is given, step by step, as a
+/// short impact clips in the sensing element and not in the mean of a sample; a sample of which any
+/// step was clipped says that it is saturated.
 class Imu : public Sensor {
  public:
   Imu(const std::string& name, models::SensorId id, const models::Pose& X_BS,
@@ -61,6 +63,7 @@ class Imu : public Sensor {
   Inertial Mean(const Instant& begin, const Instant& end, double dt_s) const;
   Inertial Point(const MotionWindow& motion) const;
   Inertial Filtered(const Inertial& raw);
+  Inertial Clipped(const Inertial& raw);
   void Integrate(const Inertial& step);
   Inertial Integral() const;
   void Publish(const Inertial& truth, std::vector<models::Measurement>& out);
@@ -72,6 +75,8 @@ class Imu : public Sensor {
   double step_s_, period_s_;
   Eigen::Vector3d g_W_;
   TriadNoise gyro_, accel_;
+  double gyro_range_, accel_range_;
+  bool gyro_clipped_ = false, accel_clipped_ = false;  ///< since the last sample
   std::optional<Filter> filter_;
   Instant begin_;              ///< of the interval; with a filter: of the step
   Eigen::Matrix3d R_begin_S_;  ///< with a filter: turned since the interval's start, and

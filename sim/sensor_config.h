@@ -8,18 +8,11 @@
 #include <Eigen/Core>
 
 #include "reckon/models/suite.h"
+#include "reckon/sim/leg_sensor_config.h"
 #include "reckon/sim/range.h"
+#include "reckon/sim/timing.h"
 
 namespace reckon::sim {
-
-/// When a sensor samples and how long its message travels.
-struct Timing {
-  double rate_hz = 200.0;  ///< an integer fraction of the physics rate
-  double latency_s = 0.0;  ///< from validity to arrival
-  /// The sensor's clock is off: a sample of instant t claims to be valid at t + this. It arrives
-  /// `latency_s` after both.
-  double stamp_error_s = 0.0;
-};
 
 /// The errors of one triad (gyroscope or accelerometer), `sensor_models.md` 3.1. SI units; u is
 /// rad/s for a gyroscope and m/s² for an accelerometer. Zero means absent.
@@ -61,6 +54,7 @@ struct EncoderConfig {
   double offset_rad = 0.0;        ///< σ of the constant offset drawn once a run
   double scale = 0.0;             ///< σ of the scale error drawn once an encoder and run
   double rate_window_s = 0.01;    ///< the firmware differences counts over this window
+  double rate_filter_hz = 0.0;    ///< and passes that on through one pole; 0: as it is
 };
 
 /// An ideal sensor of the body's velocity: white noise and nothing else.
@@ -115,23 +109,23 @@ struct DvlConfig {
   static constexpr Range kAltitude{0, 10000}, kMinBeams{3, 8};
 };
 
-enum class ContactSource {
-  kTruth,  ///< the feet that press on the ground
-  kGait,   ///< the feet that the walking controller's schedule has down
-};
-
-/// Which feet stand, without error.
-struct ContactSensorConfig {
-  Timing timing{.rate_hz = 500.0};
-  ContactSource source = ContactSource::kTruth;
-};
-
 /// The sensors that can be simulated. Several types may send the same kind of sample.
-enum class SensorType { kImu, kEncoders, kBodyVelocity, kDepth, kPose, kDvl, kContacts };
+enum class SensorType {
+  kImu,
+  kEncoders,
+  kBodyVelocity,
+  kDepth,
+  kPose,
+  kDvl,
+  kContacts,
+  kTorques,
+  kFootForces,
+};
 
 /// What a sensor of each type gets wrong, in the order of `SensorType`.
-using SensorErrors = std::variant<ImuConfig, EncoderConfig, BodyVelocityConfig, DepthConfig,
-                                  PoseConfig, DvlConfig, ContactSensorConfig>;
+using SensorErrors =
+    std::variant<ImuConfig, EncoderConfig, BodyVelocityConfig, DepthConfig, PoseConfig, DvlConfig,
+                 ContactSensorConfig, TorqueConfig, FootForceConfig>;
 
 inline SensorType TypeOf(const SensorErrors& errors) {
   return static_cast<SensorType>(errors.index());

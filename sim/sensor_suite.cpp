@@ -11,6 +11,7 @@
 #include "reckon/sim/dvl.h"
 #include "reckon/sim/encoders.h"
 #include "reckon/sim/imu.h"
+#include "reckon/sim/load_sensors.h"
 #include "reckon/sim/pose_sensor.h"
 
 namespace reckon::sim {
@@ -45,6 +46,12 @@ struct Maker {
   }
   std::unique_ptr<Sensor> operator()(const ContactSensorConfig& config) const {
     return std::make_unique<ContactSensor>(spec.name, spec.id, config, environment.step_ns);
+  }
+  std::unique_ptr<Sensor> operator()(const TorqueConfig& config) const {
+    return std::make_unique<TorqueSensor>(spec.name, spec.id, config, seed, environment.step_ns);
+  }
+  std::unique_ptr<Sensor> operator()(const FootForceConfig& config) const {
+    return std::make_unique<FootForceSensor>(spec.name, spec.id, config, seed, environment.step_ns);
   }
 };
 

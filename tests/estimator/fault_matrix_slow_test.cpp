@@ -77,6 +77,8 @@ struct ChangeNumbers {
   void operator()(models::DepthSample& s) { change(s.depth_m, 5.0); }
   void operator()(models::PoseSample& s) { All(s.X_WS.p, 20.0); }
   void operator()(models::ContactSample&) {}
+  void operator()(models::TorqueSample& s) { All(s.torque_n_m, 20.0); }
+  void operator()(models::FootForceSample& s) { All(s.force_n, 100.0); }
 };
 
 /// Makes of each measurement what the filter gets of it, by its time of arrival.

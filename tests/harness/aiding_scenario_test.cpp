@@ -145,10 +145,10 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Case{"ToesAreNotSimulated", "sensors: {feet: {type: toes, frame: base_link}}\n",
              "sc.yaml:1:24: error: '/sensors/feet/type': expected imu, encoders, body_velocity, "
-             "depth, pose, dvl or contacts, found 'toes'"},
+             "depth, pose, dvl, contacts, torques or foot_forces, found 'toes'"},
         Case{"ContactsOfARobotWithoutFeet", "sensors: {feet: {type: contacts, frame: base_link}}\n",
-             "sc.yaml:1:24: error: '/sensors/feet/type': expected no contacts: this robot has no "
-             "feet, found 'contacts'"},
+             "sc.yaml:1:24: error: '/sensors/feet/type': expected no contacts, foot forces or "
+             "torques: this robot has no legs, found 'contacts'"},
         Case{"NegativeDepthNoise", "sensors: {d: {type: depth, frame: base_link, noise_m: -1}}\n",
              "sc.yaml:1:55: error: '/sensors/d/noise_m': expected a finite number from 0 to 100, "
              "found '-1'"},

@@ -1,6 +1,7 @@
 #include "reckon/sim/encoders.h"
 
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 #include <vector>
 
@@ -146,6 +147,20 @@ TEST(Encoders, NoiseIsWhiteAndEntersBothEndsOfTheWindow) {
   EXPECT_LT(std::abs(Correlation(angle, other)), CorrelationBand(angle.size()));
   const double sigma_rate = std::sqrt(2.0) * kSigma / 0.01;
   EXPECT_NEAR(Variance(rate), sigma_rate * sigma_rate, VarianceBand(sigma_rate, rate.size()));
+}
+
+TEST(Encoders, RateFilterIsOnePole) {
+  Encoders encoders =
+      MakeEncoders({.timing = {.rate_hz = 500.0}, .rate_window_s = 0.002, .rate_filter_hz = 20.0});
+  const auto out = Spin(encoders, 3.0, 40 * kMs);
+  ASSERT_EQ(out.size(), 20U);
+  for (std::size_t n = 0; n < out.size(); ++n) {
+    // From rest, a constant rate: 1 − e^(−2π · 20 Hz · t) of it.
+    const double t = 0.002 * static_cast<double>(n + 1);
+    const double expected = 3.0 * (1.0 - std::exp(-2.0 * std::numbers::pi * 20.0 * t));
+    EXPECT_NEAR(SampleOf(out[n]).rate_rad_s[0], expected, 1e-11);  // rounding of angles over 2 ms
+    EXPECT_NEAR(SampleOf(out[n]).angle_rad[0], 3.0 * t, 1e-12);    // the angle is not filtered
+  }
 }
 
 TEST(Encoders, RefuseAWindowThatDoesNotFit) {

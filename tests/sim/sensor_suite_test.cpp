@@ -92,6 +92,12 @@ bool SameBits(const models::PoseSample& a, const models::PoseSample& b) {
 bool SameBits(const models::ContactSample& a, const models::ContactSample& b) {
   return a.probability == b.probability;
 }
+bool SameBits(const models::TorqueSample& a, const models::TorqueSample& b) {
+  return a.torque_n_m == b.torque_n_m;
+}
+bool SameBits(const models::FootForceSample& a, const models::FootForceSample& b) {
+  return a.force_n == b.force_n;
+}
 
 bool SameBits(const std::vector<Measurement>& a, const std::vector<Measurement>& b) {
   if (a.size() != b.size()) return false;
